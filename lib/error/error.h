@@ -1,0 +1,34 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace tilepack {
+
+/// What went wrong, as a user must know it. The kind alone decides the exit code of the command line.
+enum class ErrorKind {
+  usage,           ///< exit 1: an option or argument is unknown, missing or out of range
+  cannot_read,     ///< exit 2: a file is missing, unreadable, truncated or no image
+  invalid_content, ///< exit 3: a file was read, but what it holds breaks a rule
+  cannot_write,    ///< exit 4: an output can't be created, or would harm what is there
+  check_failed,    ///< exit 5: a check found faults, or two images differ
+  internal,        ///< exit 6: a fault of tilepack itself
+};
+
+/// The exit code that stands for `kind`: 1 to 6 in the order of the enumeration.
+int exit_code(ErrorKind kind);
+
+/// The one exception type of the library.
+///
+/// `where` names the file, option or field (may be empty); `what_happened` gives the offending value, the
+/// allowed range and the way out, in one sentence or two. `what()` joins them as "where: what happened".
+class Error : public std::runtime_error {
+public:
+  Error(ErrorKind error_kind, const std::string& where, const std::string& what_happened);
+  ErrorKind kind() const { return kind_of_error; }
+
+private:
+  ErrorKind kind_of_error;
+};
+
+} // namespace tilepack

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "tilepack/image/image.h"
+
+#include <span>
+#include <string_view>
+
+namespace tilepack {
+
+/// How stored values relate to light.
+enum class Encoding {
+  srgb,   ///< IEC 61966-2-1 transfer curve; the alpha channel, if any, is linear
+  linear, ///< values are proportional to what they mean (light, height, roughness, vector components)
+};
+
+/// The width of a stored channel. Integers are normalised to 0..1.
+enum class Depth { u8, u16, f16, f32 };
+
+/// The linear value of an sRGB-encoded one, and back. Defined for all finite values: odd-symmetric below 0,
+/// the power branch continued above 1. Computed from + - * / and square roots only, so the bits are the same
+/// on every machine.
+double srgb_to_linear(double encoded);
+double linear_to_srgb(double linear);
+
+/// Decodes `values` in place to linear (all channels of an sRGB image but alpha; nothing for `linear`).
+/// The alpha channel is the last of 2 or 4.
+Image to_linear(const Image& image, Encoding encoding);
+
+/// Inverse of to_linear; the values are not yet rounded to a depth.
+Image from_linear(const Image& image, Encoding encoding);
+
+/// Each value as it would come back from a file of this depth: integers clamped to 0..1 and rounded to the
+/// nearest code (half up), half rounded to nearest even, float as it is. NaN becomes 0 for integers.
+Image quantised(const Image& image, Depth depth);
+float quantised(float value, Depth depth);
+
+/// Names as they stand in pack.json and options: "srgb", "linear"; "u8", "u16", "f16", "f32".
+std::string_view name_of(Encoding encoding);
+std::string_view name_of(Depth depth);
+
+} // namespace tilepack

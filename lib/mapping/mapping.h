@@ -1,0 +1,55 @@
+#pragma once
+
+#include "tilepack/tileset/tile_colors.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace tilepack {
+
+enum class MappingKind { permutation, mix, index };
+
+std::string_view name_of(MappingKind kind); ///< "permutation", "mix", "index"
+
+/// The virtual texture's size in tiles, each side 1..2^31. It wraps.
+struct VirtualSize {
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  bool operator==(const VirtualSize&) const = default;
+};
+
+/// Which tile lies in which cell of the virtual texture, found in constant time.
+///
+///   permutation  H(x,y) = P[P[x] + y] mod Kh, V(x,y) = P[x + P[2y]] mod Kv, indices into P mod n  [Wei04,
+///   Eq. 2] mix          the same lattice of edge (or corner) colors from an integer hash of (seed, axis, x,
+///   y): no table, no
+///                period below 2^31 cells
+///   index        a stored image of tile ids, one a cell
+struct Mapping {
+  MappingKind kind = MappingKind::permutation;
+  VirtualSize size;
+  std::vector<int> table; ///< permutation: a permutation of 0..n-1
+  std::uint64_t seed = 0; ///< mix
+  std::vector<int> ids;   ///< index: size.width * size.height tile ids, row by row
+};
+
+/// A permutation mapping whose table is shuffled by `seed`. The table length n is the smallest multiple of
+/// the number of colors of each kind that is at least 2 * max(width, height): longer tables repeat no row
+/// within the texture, and `mod K` is then unbiased. Sides 1..4096: beyond, the table would be larger than a
+/// mix is slow (Error, usage).
+Mapping permutation_mapping(VirtualSize size, const ColorCounts& colors, std::uint64_t seed);
+
+Mapping mix_mapping(VirtualSize size, std::uint64_t seed);
+
+/// `mapping` written out cell by cell; at most 2^26 cells (Error, usage).
+Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors);
+
+/// Colors of the tile at cell (x, y), any integers: the texture wraps. Not for index mappings.
+EdgeTile edge_tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y);
+CornerTile corner_tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y);
+
+/// The id of the tile at cell (x, y), any integers, for a complete set or an index map.
+int tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y);
+
+} // namespace tilepack
