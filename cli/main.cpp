@@ -1,8 +1,135 @@
+#include "interrupt.h"
+#include "verb.h"
+
 #include "tilepack/error/error.h"
+#include "tilepack/error/nearest_name.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
-int main() {
-  std::fputs("tilepack: no verb is built yet\n", stderr);
-  return tilepack::exit_code(tilepack::ErrorKind::usage);
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace tilepack::cli {
+namespace {
+
+constexpr const char* exit_codes =
+    "Exit codes: 0 ok, 1 usage, 2 cannot read, 3 invalid content, 4 cannot write,\n"
+    "5 a check failed or images differ, 6 internal error.\n";
+
+const Verb* find_verb(const std::string& name) {
+  const auto verbs = verb_table();
+  const auto found = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& v) { return v.name == name; });
+  return found == verbs.end() ? nullptr : &*found;
+}
+
+std::string listing() {
+  std::string text =
+      "tilepack turns texture samples into tile packs, and renders, measures and checks them.\n\n"
+      "Usage: tilepack VERB [OPTIONS]\n\nVerbs:\n";
+  for (const Verb& verb : verb_table()) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
+  text += fmt::format("  {:<10} {}\n", "help", "this list, or the help of one verb: tilepack help VERB");
+  text +=
+      "\n`tilepack VERB --help` has the options and an example. `tilepack --version` prints the version.\n";
+  return text + exit_codes;
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_name(name, known);
+  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
+}
+
+const Verb& verb_named(const std::string& name) {
+  if (const Verb* verb = find_verb(name)) return *verb;
+  std::vector<std::string> known{"help"};
+  for (const Verb& verb : verb_table()) known.push_back(verb.name);
+  std::string hint = suggestion(name, known);
+  if (hint.empty()) hint = "; `tilepack help` lists them";
+  throw Error(ErrorKind::usage, "", fmt::format("there is no verb '{}'{}", name, hint));
+}
+
+// CLI11 reports a missing argument before an unknown option; but what it could not place tells more, since a
+// mistyped option is what leaves arguments out of place.
+std::string explained(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> extras = app.remaining();
+  const auto flag = std::find_if(extras.begin(), extras.end(), [](const std::string& argument) {
+    return argument.size() > 1 && argument.front() == '-';
+  });
+  if (flag != extras.end()) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    const std::string name = flag->substr(0, flag->find('='));
+    return fmt::format("unknown option '{}'{}", name, suggestion(name, known));
+  }
+  if (!extras.empty()) return fmt::format("unexpected argument '{}'", extras.front());
+  return error.what();
+}
+
+int run_verb(const Verb& verb, std::vector<std::string> arguments, Console& console) {
+  CLI::App app(verb.summary + ".", "tilepack " + verb.name);
+  app.footer("\nExample:\n" + verb.example);
+  app.get_formatter()->column_width(34);
+  app.add_flag("-q,--quiet", console.quiet, "no progress, notes and warnings");
+  const Action action = verb.declare(app);
+  try {
+    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them last first
+    app.parse(std::move(arguments));
+  } catch (const CLI::CallForHelp&) {
+    console.print(app.help());
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorKind::usage, "", explained(app, error));
+  }
+  return action(console);
+}
+
+int run(const std::vector<std::string>& arguments, Console& console) {
+  const std::string first = arguments.empty() ? "" : arguments[0];
+  if (first.empty()) throw Error(ErrorKind::usage, "", "a verb is missing; `tilepack help` lists them");
+  if (first == "--version") {
+    console.print("tilepack " TILEPACK_VERSION "\n");
+    return 0;
+  }
+  if (first == "help" || first == "--help" || first == "-h") {
+    if (arguments.size() < 2)
+      console.print(listing());
+    else
+      return run_verb(verb_named(arguments[1]), {"--help"}, console);
+    return 0;
+  }
+  return run_verb(verb_named(first), {arguments.begin() + 1, arguments.end()}, console);
+}
+
+// The one place where an exception becomes a message and an exit code.
+int guarded_run(const std::vector<std::string>& arguments) {
+  const bool has_verb = !arguments.empty() && find_verb(arguments[0]) != nullptr;
+  Console console(has_verb ? "tilepack " + arguments[0] : "tilepack");
+  try {
+    return run(arguments, console);
+  } catch (const Interrupted&) {
+    console.note("interrupted; nothing was written");
+  } catch (const Error& error) {
+    console.error(error.what());
+    return exit_code(error.kind());
+  } catch (const std::bad_alloc&) {
+    console.error("out of memory; smaller tiles, fewer colors or a smaller image need less");
+    return exit_code(ErrorKind::internal);
+  } catch (const std::exception& error) {
+    console.error(std::string("internal fault: ") + error.what());
+    return exit_code(ErrorKind::internal);
+  }
+  return -1;
+}
+
+} // namespace
+} // namespace tilepack::cli
+
+int main(int argc, char** argv) {
+  tilepack::cli::watch_interrupts();
+  const int code = tilepack::cli::guarded_run({argv + 1, argv + argc});
+  if (code < 0) tilepack::cli::end_by_signal();
+  return code;
 }

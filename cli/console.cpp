@@ -1,0 +1,75 @@
+#include "console.h"
+
+#include "interrupt.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <unistd.h>
+
+namespace tilepack::cli {
+
+Console::Console(std::string command) : command_name(std::move(command)) {
+  terminal = isatty(STDERR_FILENO) != 0;
+  const char* no_color = std::getenv("NO_COLOR");
+  colored = terminal && (no_color == nullptr || *no_color == '\0');
+}
+
+Console::~Console() {
+  erase_progress();
+}
+
+void Console::print(std::string_view data) {
+  erase_progress();
+  if (std::fwrite(data.data(), 1, data.size(), stdout) != data.size() || std::fflush(stdout) != 0)
+    throw Error(ErrorKind::cannot_write, "stdout", "the output could not be written; is the disk full?");
+}
+
+void Console::note(std::string_view message) {
+  if (!quiet) line("", "", message);
+}
+
+void Console::warn(std::string_view message) {
+  if (!quiet) line("warning", "\033[33m", message);
+}
+
+void Console::error(std::string_view message) {
+  line("error", "\033[31m", message);
+}
+
+void Console::line(std::string_view word, const char* color, std::string_view message) {
+  erase_progress();
+  std::string text = command_name + ": ";
+  if (!word.empty()) text += colored ? fmt::format("{}{}\033[0m: ", color, word) : fmt::format("{}: ", word);
+  text += message;
+  text += '\n';
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+Progress Console::progress() {
+  return [this](std::string_view stage, double done) {
+    if (interrupted()) throw Interrupted();
+    if (terminal && !quiet) draw(stage, done);
+  };
+}
+
+void Console::draw(std::string_view stage, double done) {
+  const int percent = static_cast<int>(std::clamp(done, 0.0, 1.0) * 100.0);
+  const std::string text = fmt::format("{:3d} % {}", percent, stage);
+  if (text == drawn) return;
+  erase_progress();
+  drawn = text;
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+void Console::erase_progress() {
+  if (drawn.empty()) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+  drawn.clear();
+}
+
+} // namespace tilepack::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "console.h"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <span>
+#include <string>
+
+namespace tilepack::cli {
+
+/// What a verb does once its arguments are parsed; returns the exit code, or throws Error.
+using Action = std::function<int(Console& console)>;
+
+/// One verb of the command line. Dispatch, the help listing and the suggestions for mistyped verbs all read
+/// verb_table(), so a new verb is one file `verb_NAME.cpp` that defines `NAME_verb()`, its declaration below,
+/// and a line in verb_table.cpp.
+struct Verb {
+  std::string name;
+  std::string summary; ///< one line, no full stop
+  std::string example; ///< command lines that work, shown below --help
+
+  /// Declares positionals and options on `app`, and returns what runs after parsing. Values live in state
+  /// that the returned action owns (a shared_ptr captured by both). --help and --quiet are there already.
+  Action (*declare)(CLI::App& app);
+};
+
+Verb bake_verb();
+
+/// All verbs, in the order of the help listing.
+std::span<const Verb> verb_table();
+
+} // namespace tilepack::cli

@@ -1,0 +1,14 @@
+#include "verb.h"
+
+#include <array>
+
+namespace tilepack::cli {
+
+std::span<const Verb> verb_table() {
+  static const std::array table{
+      bake_verb(),
+  };
+  return table;
+}
+
+} // namespace tilepack::cli
