@@ -93,4 +93,6 @@ TEST_CASE("the tile-index layout names the tile that is missing or there twice")
     CHECK(std::string(error.what()).find(expected) != std::string::npos);
   }
   CHECK_THROWS_AS(tile_index_layout({}), Error);
+  CHECK_THROWS_WITH(tile_index_layout({{0, 0, 0, 8}}), Catch::Contains("0 to 7"));
+  CHECK_THROWS_WITH(tile_index_layout({{0, -1, 0, 0}}), Catch::Contains("-1"));
 }

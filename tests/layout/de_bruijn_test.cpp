@@ -1,0 +1,73 @@
+#include "tilepack/error/error.h"
+#include "tilepack/image/wrap.h"
+#include "tilepack/layout/de_bruijn.h"
+#include "tilepack/layout/tile_index.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+using namespace tilepack;
+
+TEST_CASE("every 2 x 2 block of colors occurs once in the de Bruijn torus") {
+  for (int colors = 1; colors <= 4; ++colors) {
+    CAPTURE(colors);
+    const int side = colors * colors;
+    std::set<int> blocks;
+    for (int row = 0; row < side; ++row)
+      for (int column = 0; column < side; ++column) {
+        const int east = (column + 1) % side;
+        const int south = (row + 1) % side;
+        const CornerTile tile{de_bruijn_color(colors, column, row), de_bruijn_color(colors, east, row),
+                              de_bruijn_color(colors, column, south), de_bruijn_color(colors, east, south)};
+        for (const int color : {tile.nw, tile.ne, tile.sw, tile.se}) CHECK((color >= 0 && color < colors));
+        blocks.insert(id_in_complete_set(tile, colors));
+      }
+    CHECK(static_cast<int>(blocks.size()) == side * side);
+  }
+}
+
+TEST_CASE("for odd K a block is found by arithmetic") {
+  const int n = 9;
+  const Layout layout = de_bruijn_layout(complete_corner_set(3));
+  const std::vector<CornerTile> tiles = complete_corner_set(3);
+  for (const Cell& cell : layout.cells) {
+    const CornerTile& tile = tiles[static_cast<std::size_t>(cell.tile)];
+    const int p = tile_index_1d(tile.nw, tile.sw);
+    const int q = tile_index_1d(tile.ne, tile.se);
+    const int column = wrapped(q - p, n);
+    CHECK(cell.column == column);
+    CHECK(cell.row == wrapped(p - column * (column - 1) / 2, n));
+  }
+}
+
+TEST_CASE("the de Bruijn layout holds each tile once and agrees at every corner of the torus") {
+  for (int colors = 1; colors <= 4; ++colors) {
+    CAPTURE(colors);
+    const std::vector<CornerTile> tiles = complete_corner_set(colors);
+    const Layout layout = de_bruijn_layout(tiles);
+    CHECK(layout.kind == LayoutKind::de_bruijn);
+    REQUIRE(layout.columns == colors * colors);
+    REQUIRE(layout.rows == colors * colors);
+    std::set<std::pair<int, int>> places;
+    for (std::size_t id = 0; id < tiles.size(); ++id) {
+      const Cell& cell = layout.cells[id];
+      CHECK(cell.tile == static_cast<int>(id));
+      CHECK(de_bruijn_color(colors, cell.column, cell.row) == tiles[id].nw);
+      CHECK(de_bruijn_color(colors, (cell.column + 1) % layout.columns, (cell.row + 1) % layout.rows) ==
+            tiles[id].se);
+      places.insert({cell.column, cell.row});
+    }
+    CHECK(places.size() == tiles.size());
+  }
+}
+
+TEST_CASE("the de Bruijn layout refuses what is no complete set of 1 to 4 colors") {
+  CHECK_THROWS_AS(de_bruijn_color(5, 0, 0), Error);
+  CHECK_THROWS_AS(de_bruijn_layout({}), Error);
+  CHECK_THROWS_AS(de_bruijn_layout(complete_corner_set(5)), Error);
+  std::vector<CornerTile> tiles = complete_corner_set(2);
+  tiles[3] = tiles[2];
+  CHECK_THROWS_WITH(de_bruijn_layout(tiles), Catch::Contains("tiles 2 and 3"));
+  tiles.erase(tiles.begin() + 3);
+  CHECK_THROWS_WITH(de_bruijn_layout(tiles), Catch::Contains("nw 0, ne 0, sw 1, se 1"));
+}
