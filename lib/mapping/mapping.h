@@ -19,12 +19,16 @@ struct VirtualSize {
   bool operator==(const VirtualSize&) const = default;
 };
 
-/// Which tile lies in which cell of the virtual texture, found in constant time.
+/// Which tile lies in which cell of the virtual texture, found in constant time: each edge (or corner) of the
+/// lattice gets its color from a hash of its place, so that neighbours agree without knowing each other.
 ///
-///   permutation  H(x,y) = P[P[x] + y] mod Kh, V(x,y) = P[x + P[2y]] mod Kv, indices into P mod n  [Wei04,
-///   Eq. 2] mix          the same lattice of edge (or corner) colors from an integer hash of (seed, axis, x,
-///   y): no table, no
-///                period below 2^31 cells
+///   permutation  with P a permutation of 0..n-1, first x mod width and y mod height, then indices mod n:
+///                horizontal edges  H(x, y) = P[P[x] + y] mod Kh
+///                vertical edges    V(x, y) = P[x + P[2y]] mod Kv              [Wei04, Eq. 2]
+///                corners           C(x, y) = P[P[x] + y] mod K
+///                H(x, y) is the edge on top of cell (x, y), V(x, y) the one on its left, C(x, y) its
+///                north-west corner.
+///   mix          the same lattice from a keyed integer hash, mapping/mix_hash.h: no table, no period
 ///   index        a stored image of tile ids, one a cell
 struct Mapping {
   MappingKind kind = MappingKind::permutation;
@@ -33,6 +37,9 @@ struct Mapping {
   std::uint64_t seed = 0; ///< mix
   std::vector<int> ids;   ///< index: size.width * size.height tile ids, row by row
 };
+
+/// 0..length-1 in an order shuffled by `seed`; length >= 1.
+std::vector<int> permutation_table(int length, std::uint64_t seed);
 
 /// A permutation mapping whose table is shuffled by `seed`. The table length n is the smallest multiple of
 /// the number of colors of each kind that is at least 2 * max(width, height): longer tables repeat no row
