@@ -30,11 +30,19 @@ int level_count(Size tile_size);
 /// The size of a tile at `level`: each side divided by 2^level.
 Size level_size(Size tile_size, int level);
 
+/// Whether `level` needs no sanitizing under a guard band of `guard` texels: level 0, and those with
+/// 2^level <= guard. There the border texels of width guard >> level are boxes of guarded texels alone, hence
+/// equal in all tiles of a color by themselves, and what bilinear filtering reads across a border is exact.
+bool exact_through_guard(int guard, int level);
+
 /// The levels of map number `map` of `set`, level 0 (as it is) first, each a TileMap of smaller tiles.
 ///
-/// Each level is a 2 × 2 box of the finer one *before* sanitizing and within one tile, in linear light for
-/// color (weighted by alpha), as vectors for normals; the values returned are encoded as level 0 is, not yet
-/// rounded.
+/// Each level is a 2 × 2 box of the finer one *before* sanitizing and within one tile: of linear light
+/// weighted by alpha for Role::color, of vectors for normals (3 or 4 channels: the first three are the
+/// vector, renormalised), of the values as they are for the rest. Levels past the guard band are then
+/// sanitized as `options` says (mip/shared_border.h tells what becomes equal). The values returned are
+/// encoded as level 0 is, and not yet rounded; texels made equal are equal in every bit. The result does not
+/// depend on the number of threads.
 std::vector<TileMap> mip_chain(const TileSet& set, int map, const MipOptions& options);
 
 } // namespace tilepack
