@@ -9,12 +9,17 @@ namespace tilepack {
 struct TileCoordinate {
   std::int64_t tile = 0;
   double fraction = 0; ///< 0 <= fraction < 1 after normalised(); from the west or north border of the tile
+  bool operator==(const TileCoordinate&) const = default;
 };
 
-/// The same place with 0 <= fraction < 1. NaN and infinities become fraction 0 of the same tile.
+/// The same place with 0 <= fraction < 1. Defined for every input: a fraction that is NaN, infinite or beyond
+/// 2^62 tiles counts as 0; one so little below a whole number that 1 - fraction rounds to 1 moves up to it.
 TileCoordinate normalised(TileCoordinate coordinate);
 
 /// The place `texels` texels of a level (tile_side texels a tile) from the origin of the virtual texture.
 TileCoordinate from_texels(double texels, int tile_side);
+
+/// The place whole + rest texels from the origin: exact in `whole`, however large.
+TileCoordinate from_texels(std::int64_t whole, double rest, int tile_side);
 
 } // namespace tilepack

@@ -1,13 +1,12 @@
 #pragma once
 
-#include "tilepack/pack/pack.h"
 #include "tilepack/sampler/address.h"
+#include "tilepack/sampler/filter.h"
+#include "tilepack/sampler/pack_texels.h"
 
 #include <span>
 
 namespace tilepack {
-
-enum class Filter { nearest, bilinear, trilinear };
 
 /// Looks a pack up in double precision along one obvious path: slow, and what everything fast is held
 /// against.
@@ -15,22 +14,35 @@ enum class Filter { nearest, bilinear, trilinear };
 /// Filtering is that of graphics hardware on the packed texture: the tile of the cell that holds the point is
 /// found, its place in the pack, and the filter reads the pack's texels around it, wrapping at the pack's
 /// borders. So across a tile's border it reads the pack's neighbour, which matches along edges but not at the
-/// corners of an edge-colored set. Colors are filtered in linear light.
+/// corners of an edge-colored set.
+///
+/// What is averaged:
+///   * sRGB values are decoded to linear light first (to floats, as everywhere in tilepack; weights and sums
+///     are doubles);
+///   * color with an alpha channel (2 or 4 channels) is weighed by alpha, so that what lies under transparent
+///     texels doesn't bleed; where the alpha of all texels read is 0, the colors are averaged plainly;
+///   * normals are averaged as vectors and come back as stored, n * 0.5 + 0.5, not renormalised: the length
+///     lost tells how much they vary;
+///   * everything else is averaged as it is.
+///
+/// Defined for any coordinate and level: see normalised() and level_blend().
 class ReferenceSampler {
 public:
-  /// `pack` must outlive the sampler. map: index into pack.maps.
-  ReferenceSampler(const Pack& pack, int map);
+  /// `pack` must outlive the sampler. map: index into pack.maps (Error, usage, if there is none such).
+  ReferenceSampler(const Pack& pack, int map) : texels(pack, map) {}
 
-  int channels() const;
+  int channels() const { return texels.channels(); }
 
-  /// Linear-light value at (x, y); `level` 0 is the finest, clamped to the levels stored; nearest and
-  /// bilinear round it, trilinear interpolates between the two levels around it. `out` has channels()
-  /// entries.
+  /// The linear value at (x, y). `level` 0 is the finest. `out` has channels() entries.
   void sample(TileCoordinate x, TileCoordinate y, double level, Filter filter, std::span<double> out) const;
 
 private:
-  const Pack* pack;
-  const PackedMap* map;
+  PackTexels texels;
 };
+
+/// The same lookup where the tile has already been found: `place` is that of the cell that holds the point,
+/// fraction_x and fraction_y (0 <= fraction < 1) where it lies in it.
+void sample_tile(const PackTexels& texels, PackTexels::Place place, double fraction_x, double fraction_y,
+                 const LevelBlend& levels, Filter filter, std::span<double> out);
 
 } // namespace tilepack

@@ -1,0 +1,62 @@
+#include "tilepack/sampler/filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tilepack {
+
+std::string_view name_of(Filter filter) {
+  switch (filter) {
+  case Filter::nearest:
+    return "nearest";
+  case Filter::bilinear:
+    return "bilinear";
+  case Filter::trilinear:
+    break;
+  }
+  return "trilinear";
+}
+
+std::optional<Filter> filter_named(std::string_view name) {
+  for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
+    if (name == name_of(filter)) return filter;
+  return {};
+}
+
+LevelBlend level_blend(double level, int levels, Filter filter) {
+  const double last = levels - 1;
+  const double inside = std::isnan(level) ? 0.0 : std::clamp(level, 0.0, last);
+  if (filter != Filter::trilinear) {
+    const int rounded = static_cast<int>(std::floor(inside + 0.5));
+    return {rounded, rounded, 0.0};
+  }
+  const int fine = static_cast<int>(std::floor(inside));
+  const double weight = inside - fine;
+  return {fine, weight > 0 ? fine + 1 : fine, weight};
+}
+
+Taps bilinear_taps(double fraction, int tile_side) {
+  const double position = fraction * tile_side - 0.5; // texel centres lie at +0.5
+  const double first = std::floor(position);
+  return {static_cast<int>(first), position - first};
+}
+
+int nearest_texel(double fraction, int tile_side) {
+  return std::min(static_cast<int>(fraction * tile_side), tile_side - 1);
+}
+
+double exact_log2(double x) {
+  // Squaring the mantissa doubles its logarithm: each time it passes 2, the next binary digit is 1.
+  int exponent = 0;
+  double mantissa = std::frexp(x, &exponent) * 2.0; // 1 <= mantissa < 2
+  double result = exponent - 1;
+  for (double digit = 0.5; digit > 0x1p-40 && mantissa != 1.0; digit *= 0.5) {
+    mantissa *= mantissa;
+    if (mantissa < 2.0) continue;
+    mantissa *= 0.5;
+    result += digit;
+  }
+  return result;
+}
+
+} // namespace tilepack

@@ -1,0 +1,120 @@
+#include "tilepack/sampler/render.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/sampler/reference_sampler.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace tilepack {
+namespace {
+
+int output_side(int texels, double scale, const char* name) {
+  const double side = std::max(1.0, std::floor(texels * scale + 0.5));
+  if (side > max_render_side)
+    throw Error(ErrorKind::usage, name,
+                std::to_string(static_cast<std::int64_t>(std::min(side, 1e18))) +
+                    " pixels; a picture's side may be 1.." + std::to_string(max_render_side) +
+                    ": take a smaller window or scale, or a coarser level");
+  return static_cast<int>(side);
+}
+
+const PackedMap& map_of(const Pack& pack, int map, int level) {
+  const int maps = static_cast<int>(pack.maps.size());
+  if (map < 0 || map >= maps)
+    throw Error(ErrorKind::usage, "map",
+                std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
+  const PackedMap& result = pack.maps[static_cast<std::size_t>(map)];
+  const int levels = static_cast<int>(result.levels.size());
+  if (level < 0 || level >= levels)
+    throw Error(ErrorKind::usage, "level",
+                std::to_string(level) + " is not stored; the pack has levels 0.." +
+                    std::to_string(levels - 1));
+  return result;
+}
+
+// Texels of `level` are 1 / scale pixels wide; a level up doubles them.
+LevelBlend levels_for(const View& view, int stored_levels) {
+  if (view.filter != Filter::trilinear) return {view.level, view.level, 0.0};
+  return level_blend(view.level - exact_log2(view.scale), stored_levels, view.filter);
+}
+
+void renormalise(std::span<double> normal) {
+  double square = 0;
+  for (int c = 0; c < 3; ++c) square += (2 * normal[c] - 1) * (2 * normal[c] - 1);
+  if (!(square > 0)) return;
+  const double length = std::sqrt(square);
+  for (int c = 0; c < 3; ++c) normal[c] = 0.5 + 0.5 * ((2 * normal[c] - 1) / length);
+}
+
+} // namespace
+
+Size output_size(const View& view) {
+  if (view.rect.width < 1 || view.rect.height < 1)
+    throw Error(ErrorKind::usage, "rect",
+                std::to_string(view.rect.width) + " x " + std::to_string(view.rect.height) +
+                    " texels; both sides must be at least 1");
+  if (!(view.scale > 0) || !std::isfinite(view.scale))
+    throw Error(ErrorKind::usage, "scale",
+                std::to_string(view.scale) + "; it must be a number above 0 (1: a pixel a texel)");
+  return {output_side(view.rect.width, view.scale, "width"),
+          output_side(view.rect.height, view.scale, "height")};
+}
+
+Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, const RenderTarget& of_target)
+    : pack(&of_pack), map(&map_of(of_pack, map_index, of_view.level)), view(of_view), target(of_target),
+      picture(output_size(of_view)),
+      texels(of_pack, map_index, levels_for(of_view, static_cast<int>(map->levels.size())).fine,
+             levels_for(of_view, static_cast<int>(map->levels.size())).coarse),
+      levels(levels_for(of_view, texels.levels())) {
+  if (view.scale == 1.0) {
+    stored = map->levels[static_cast<std::size_t>(view.level)];
+    if (target.encoding != map->encoding)
+      stored = from_linear(to_linear(stored, map->encoding), target.encoding);
+    stored = quantised(stored, target.depth);
+    return;
+  }
+  const Size tile = texels.tile_size(view.level);
+  columns.resize(static_cast<std::size_t>(picture.width));
+  for (int i = 0; i < picture.width; ++i)
+    columns[static_cast<std::size_t>(i)] = from_texels(view.rect.x, (i + 0.5) / view.scale, tile.width);
+}
+
+Image Renderer::rows(int first, int count) const {
+  if (view.scale == 1.0)
+    return virtual_texture(*pack, stored, view.level,
+                           {view.rect.x, view.rect.y + first, picture.width, count});
+  Image band(picture.width, count, channels());
+  tbb::parallel_for(0, count, [&](int row) { render_row(first + row, band.row(row)); });
+  return band;
+}
+
+void Renderer::render_row(int row, std::span<float> out) const {
+  const Size tile = texels.tile_size(view.level);
+  const TileCoordinate y = from_texels(view.rect.y, (row + 0.5) / view.scale, tile.height);
+  const auto channel_count = static_cast<std::size_t>(channels());
+  // Channels that carry light: as in encoding.h, the last of 2 or 4 does not.
+  const std::size_t encoded =
+      target.encoding == Encoding::srgb ? channel_count - (channel_count % 2 == 0 ? 1 : 0) : 0;
+  const bool renormal = map->role == Role::normal && channel_count >= 3 && view.filter != Filter::nearest;
+  std::array<double, 4> buffer{};
+  const std::span<double> value(buffer.data(), channel_count);
+
+  // The tile is found once a cell, not once a pixel: columns run from west to east.
+  PackTexels::Place place;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const TileCoordinate& x = columns[i];
+    if (i == 0 || x.tile != columns[i - 1].tile) place = texels.place(x.tile, y.tile);
+    sample_tile(texels, place, x.fraction, y.fraction, levels, view.filter, value);
+    if (renormal) renormalise(value);
+    for (std::size_t c = 0; c < encoded; ++c) value[c] = linear_to_srgb(value[c]);
+    for (std::size_t c = 0; c < channel_count; ++c)
+      out[i * channel_count + c] = quantised(static_cast<float>(value[c]), target.depth);
+  }
+}
+
+} // namespace tilepack

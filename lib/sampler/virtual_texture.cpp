@@ -1,0 +1,62 @@
+#include "tilepack/sampler/virtual_texture.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/image/wrap.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tilepack {
+namespace {
+
+// One row of the window: cell by cell, since within a cell the texels are consecutive in the pack too.
+void copy_row(const Pack& pack, const Image& level, Size tile, const VirtualRect& rect, int row,
+              std::span<float> out) {
+  const std::int64_t y = rect.y + row;
+  const int texel_y = static_cast<int>(wrapped(y, static_cast<std::int64_t>(tile.height)));
+  const std::int64_t cell_y = (y - texel_y) / tile.height;
+  const auto channels = static_cast<std::size_t>(level.channels());
+  for (int column = 0; column < rect.width;) {
+    const std::int64_t x = rect.x + column;
+    const int texel_x = static_cast<int>(wrapped(x, static_cast<std::int64_t>(tile.width)));
+    const int count = std::min(tile.width - texel_x, rect.width - column);
+    const int id = tile_at(pack.mapping, pack.colors, (x - texel_x) / tile.width, cell_y);
+    const Cell& cell = pack.layout.cells[static_cast<std::size_t>(id)];
+    const auto from = level.row(cell.row * tile.height + texel_y)
+                          .subspan(static_cast<std::size_t>(cell.column * tile.width + texel_x) * channels,
+                                   static_cast<std::size_t>(count) * channels);
+    std::copy(from.begin(), from.end(), out.begin() + static_cast<std::ptrdiff_t>(column) * level.channels());
+    column += count;
+  }
+}
+
+} // namespace
+
+Image virtual_texture(const Pack& pack, const Image& level_image, int level, VirtualRect rect) {
+  if (rect.width < 1 || rect.height < 1)
+    throw Error(ErrorKind::usage, "rect",
+                std::to_string(rect.width) + " x " + std::to_string(rect.height) +
+                    " texels; both sides must be at least 1");
+  const Size tile = level_size(pack.tile_size, level);
+  Image result(rect.width, rect.height, level_image.channels());
+  tbb::parallel_for(0, rect.height,
+                    [&](int row) { copy_row(pack, level_image, tile, rect, row, result.row(row)); });
+  return result;
+}
+
+Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect) {
+  const int maps = static_cast<int>(pack.maps.size());
+  if (map < 0 || map >= maps)
+    throw Error(ErrorKind::usage, "map",
+                std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
+  const auto& levels = pack.maps[static_cast<std::size_t>(map)].levels;
+  if (level < 0 || level >= static_cast<int>(levels.size()))
+    throw Error(ErrorKind::usage, "level",
+                std::to_string(level) + " is not stored; the pack has levels 0.." +
+                    std::to_string(levels.size() - 1));
+  return virtual_texture(pack, levels[static_cast<std::size_t>(level)], level, rect);
+}
+
+} // namespace tilepack

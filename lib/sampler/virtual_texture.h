@@ -1,0 +1,27 @@
+#pragma once
+
+#include "tilepack/pack/pack.h"
+
+#include <cstdint>
+
+namespace tilepack {
+
+/// A window of the virtual texture in texels of one level: any x and y, the texture wraps.
+struct VirtualRect {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// The virtual texture written out: what a user without tiles would have stored at this level.
+///
+/// The tiles of pack.maps[map] at `level` as they are in the pack, side by side as the mapping says; values
+/// and encoding as stored. Throws Error (usage) for a map or level the pack doesn't hold, or sides below 1.
+Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect);
+
+/// The same with the texels of `level_image` (laid out as that level of the pack is, any channels) in place
+/// of the map's own.
+Image virtual_texture(const Pack& pack, const Image& level_image, int level, VirtualRect rect);
+
+} // namespace tilepack
