@@ -17,12 +17,12 @@ enum class Encoding {
 enum class Depth { u8, u16, f16, f32 };
 
 /// The linear value of an sRGB-encoded one, and back. Defined for all finite values: odd-symmetric below 0,
-/// the power branch continued above 1. Computed from + - * / and square roots only, so the bits are the same
-/// on every machine.
+/// the power branch continued above 1. Within 1e-14 of the exact value, relative. Computed from + - * / only,
+/// so the bits are the same on every machine.
 double srgb_to_linear(double encoded);
 double linear_to_srgb(double linear);
 
-/// Decodes `values` in place to linear (all channels of an sRGB image but alpha; nothing for `linear`).
+/// The image decoded to linear light: all channels of an sRGB image but alpha, nothing for `linear`.
 /// The alpha channel is the last of 2 or 4.
 Image to_linear(const Image& image, Encoding encoding);
 
@@ -33,6 +33,14 @@ Image from_linear(const Image& image, Encoding encoding);
 /// nearest code (half up), half rounded to nearest even, float as it is. NaN becomes 0 for integers.
 Image quantised(const Image& image, Depth depth);
 float quantised(float value, Depth depth);
+
+/// The integer code that stands for `value` where `top` stands for 1: clamped to 0..top, rounded half up, 0
+/// for NaN. `top` is 255 or 65535.
+inline int code_of(float value, int top) {
+  if (!(value > 0.0f)) return 0;
+  if (value >= 1.0f) return top;
+  return static_cast<int>(static_cast<double>(value) * top + 0.5);
+}
 
 /// Names as they stand in pack.json and options: "srgb", "linear"; "u8", "u16", "f16", "f32".
 std::string_view name_of(Encoding encoding);

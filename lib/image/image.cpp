@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace tilepack {
 namespace {
@@ -12,6 +13,12 @@ bool inside(Size size, Rect r) {
 }
 
 } // namespace
+
+Image::Image(Size size, int channels, std::vector<float> texels)
+    : size_in_texels(size), channel_count(channels), values(std::move(texels)) {
+  if (values.size() != row_length() * static_cast<std::size_t>(size.height))
+    throw std::invalid_argument("an image has width * height * channels values");
+}
 
 Image crop(const Image& image, Rect rect) {
   if (!inside(image.size(), rect)) throw std::out_of_range("crop outside the image");

@@ -37,6 +37,10 @@ public:
                    static_cast<std::size_t>(channels),
                fill) {}
 
+  /// Takes over row-major, interleaved values, width * height * channels of them (std::invalid_argument
+  /// otherwise).
+  Image(Size size, int channels, std::vector<float> texels);
+
   int width() const { return size_in_texels.width; }
   int height() const { return size_in_texels.height; }
   int channels() const { return channel_count; }

@@ -1,0 +1,299 @@
+#include "tilepack/image/file_format.h"
+
+#include "tilepack/error/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
+#include <span>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <vector>
+
+namespace tilepack {
+namespace {
+
+/// A file opened for reading at any offset.
+class FileBytes {
+public:
+  explicit FileBytes(const std::filesystem::path& file) : name(file.string()) {
+    // Not blocking: opening a pipe must not wait for a writer.
+    descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0)
+      throw Error(ErrorKind::cannot_read, name, fmt::format("cannot be opened: {}", std::strerror(errno)));
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+      ::close(descriptor);
+      throw Error(ErrorKind::cannot_read, name,
+                  S_ISDIR(status.st_mode) ? "is a folder; name an image file in it"
+                                          : "is not a regular file; copy the image to one");
+    }
+    length = static_cast<std::uint64_t>(status.st_size);
+  }
+  ~FileBytes() { ::close(descriptor); }
+  FileBytes(const FileBytes&) = delete;
+  FileBytes& operator=(const FileBytes&) = delete;
+
+  std::uint64_t size() const { return length; }
+
+  bool holds(std::uint64_t offset, std::uint64_t count) const {
+    return offset <= length && count <= length - offset;
+  }
+
+  /// Fills `bytes` from `offset`; an end of file before that is a truncation.
+  void read(std::uint64_t offset, std::span<unsigned char> bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t n = ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0)
+        throw Error(ErrorKind::cannot_read, name, fmt::format("cannot be read: {}", std::strerror(errno)));
+      if (n == 0) truncated();
+      offset += static_cast<std::uint64_t>(n);
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+  }
+
+  [[noreturn]] void truncated() const {
+    throw Error(
+        ErrorKind::cannot_read, name,
+        fmt::format("is truncated: its content goes on after the {} bytes that are there; copy or export "
+                    "it again",
+                    length));
+  }
+  [[noreturn]] void damaged(const std::string& what) const {
+    throw Error(ErrorKind::cannot_read, name, fmt::format("is damaged: {}; copy or export it again", what));
+  }
+
+private:
+  std::string name;
+  int descriptor = -1;
+  std::uint64_t length = 0;
+};
+
+std::uint64_t big_endian(std::span<const unsigned char> bytes) {
+  std::uint64_t value = 0;
+  for (const unsigned char b : bytes) value = value << 8 | b;
+  return value;
+}
+
+// ---- PNG -------------------------------------------------------------------------------------------------
+
+constexpr std::array<unsigned char, 8> png_signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+
+/// CRC-32 as PNG has it (polynomial 0xEDB88320, reflected), continued from `crc`.
+std::uint32_t crc32(std::uint32_t crc, std::span<const unsigned char> bytes) {
+  static const std::array<std::uint32_t, 256> table = [] {
+    std::array<std::uint32_t, 256> t{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      std::uint32_t c = i;
+      for (int bit = 0; bit < 8; ++bit) c = c & 1u ? 0xEDB88320u ^ c >> 1 : c >> 1;
+      t[i] = c;
+    }
+    return t;
+  }();
+  for (const unsigned char b : bytes) crc = table[(crc ^ b) & 0xFFu] ^ crc >> 8;
+  return crc;
+}
+
+void check_png(const FileBytes& file) {
+  std::uint64_t offset = png_signature.size();
+  std::vector<unsigned char> block(1 << 16);
+  for (bool first = true;; first = false) {
+    std::array<unsigned char, 8> head{};
+    file.read(offset, head);
+    const std::uint64_t length = big_endian(std::span(head).first(4));
+    const std::string type(head.begin() + 4, head.end());
+    if (first && type != "IHDR") file.damaged("it does not begin with a header chunk");
+    if (!file.holds(offset + 8, length + 4)) file.truncated();
+
+    std::uint32_t crc = crc32(0xFFFFFFFFu, std::span(head).subspan(4));
+    for (std::uint64_t done = 0; done < length;) {
+      const auto part = std::span(block).first(
+          static_cast<std::size_t>(std::min<std::uint64_t>(length - done, block.size())));
+      file.read(offset + 8 + done, part);
+      crc = crc32(crc, part);
+      done += part.size();
+    }
+    std::array<unsigned char, 4> stored{};
+    file.read(offset + 8 + length, stored);
+    if (big_endian(stored) != (crc ^ 0xFFFFFFFFu))
+      file.damaged(fmt::format("the chunk at byte {} fails its checksum", offset));
+    if (type == "IEND") return;
+    offset += length + 12;
+  }
+}
+
+// ---- JPEG ------------------------------------------------------------------------------------------------
+
+/// Walks a file byte by byte through a buffer.
+class ByteStream {
+public:
+  ByteStream(const FileBytes& source, std::uint64_t from) : file(source), next_block(from) {}
+
+  unsigned char next() {
+    if (position == block.size()) refill();
+    return block[position++];
+  }
+  void skip(std::uint64_t count) {
+    const std::uint64_t buffered = block.size() - position;
+    if (count <= buffered) {
+      position += static_cast<std::size_t>(count);
+    } else {
+      next_block += count - buffered;
+      position = block.size();
+    }
+  }
+
+private:
+  void refill() {
+    if (!file.holds(next_block, 1)) file.truncated();
+    block.resize(static_cast<std::size_t>(std::min<std::uint64_t>(1 << 16, file.size() - next_block)));
+    file.read(next_block, block);
+    next_block += block.size();
+    position = 0;
+  }
+
+  const FileBytes& file;
+  std::uint64_t next_block;
+  std::vector<unsigned char> block;
+  std::size_t position = 0;
+};
+
+void check_jpeg(const FileBytes& file) {
+  ByteStream bytes(file, 2); // past the start marker
+  bool in_scan = false;
+  for (;;) {
+    unsigned char byte = bytes.next();
+    if (byte != 0xFF) {
+      if (!in_scan) file.damaged("a segment does not begin with a marker");
+      continue;
+    }
+    while (byte == 0xFF) byte = bytes.next();
+    // Within a scan, FF 00 stands for the byte FF, and D0 to D7 are restart markers.
+    if (in_scan && (byte == 0x00 || (byte >= 0xD0 && byte <= 0xD7))) continue;
+    if (byte == 0xD9) return; // end of image
+    in_scan = byte == 0xDA;
+    const std::uint64_t high = bytes.next();
+    const std::uint64_t length = high << 8 | bytes.next();
+    if (length < 2) file.damaged("a segment is shorter than its length field");
+    bytes.skip(length - 2);
+  }
+}
+
+// ---- TIFF ------------------------------------------------------------------------------------------------
+
+class TiffWalk {
+public:
+  explicit TiffWalk(const FileBytes& source) : file(source) {
+    std::array<unsigned char, 4> head{};
+    file.read(0, head);
+    little = head[0] == 'I';
+    big = (little ? head[2] : head[3]) == 43;
+  }
+
+  /// Only the first directory counts: the others describe images that are not read.
+  void check() const { check_directory(big ? number(8, 8) : number(4, 4)); }
+
+private:
+  struct Entry {
+    std::uint64_t type = 0, count = 0, at = 0; // `at`: offset of the first value in the file
+  };
+
+  std::uint64_t number(std::uint64_t offset, std::size_t bytes) const {
+    std::array<unsigned char, 8> raw{};
+    const auto part = std::span(raw).first(bytes);
+    file.read(offset, part);
+    if (little) std::reverse(part.begin(), part.end());
+    return big_endian(part);
+  }
+
+  static std::size_t size_of(std::uint64_t type) {
+    constexpr std::array<unsigned char, 19> sizes = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
+    return type < sizes.size() ? sizes[static_cast<std::size_t>(type)] : 0;
+  }
+
+  void check_directory(std::uint64_t directory) const {
+    const std::size_t word = big ? 8 : 4, count_size = big ? 8 : 2, entry_size = big ? 20 : 12;
+    const std::uint64_t entries = number(directory, count_size);
+    if (entries > file.size() / entry_size) file.truncated();
+    Entry offsets, counts;
+    for (std::uint64_t i = 0; i < entries; ++i) {
+      const std::uint64_t at = directory + count_size + i * entry_size;
+      const std::uint64_t tag = number(at, 2);
+      Entry entry{number(at + 2, 2), number(at + 4, word), at + 4 + word};
+      const std::size_t size = size_of(entry.type);
+      if (size == 0) continue; // an unknown type is to be skipped, says the format
+      if (entry.count > file.size()) file.truncated();
+      if (entry.count * size > word) entry.at = number(entry.at, word);
+      if (!file.holds(entry.at, entry.count * size)) file.truncated();
+      if (tag == 273 || tag == 324) offsets = entry; // strips, tiles
+      if (tag == 279 || tag == 325) counts = entry;
+    }
+    for (std::uint64_t i = 0; i < std::min(offsets.count, counts.count); ++i)
+      if (!file.holds(value(offsets, i), value(counts, i))) file.truncated();
+  }
+
+  std::uint64_t value(const Entry& entry, std::uint64_t i) const {
+    const std::size_t size = size_of(entry.type);
+    return number(entry.at + i * size, size);
+  }
+
+  const FileBytes& file;
+  bool little = true, big = false;
+};
+
+} // namespace
+
+std::string_view name_of(FileFormat format) {
+  switch (format) {
+  case FileFormat::png:
+    return "png";
+  case FileFormat::jpeg:
+    return "jpeg";
+  case FileFormat::tiff:
+    return "tiff";
+  case FileFormat::exr:
+    break;
+  }
+  return "openexr";
+}
+
+FileFormat file_format(const std::filesystem::path& path) {
+  const FileBytes file(path);
+  if (file.size() == 0) throw Error(ErrorKind::cannot_read, path.string(), "is empty (0 bytes)");
+  std::array<unsigned char, 8> head{};
+  file.read(0, std::span(head).first(static_cast<std::size_t>(std::min<std::uint64_t>(8, file.size()))));
+  const auto begins = [&](std::string_view magic) {
+    return std::equal(magic.begin(), magic.end(), head.begin(),
+                      [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
+  };
+  if (head == png_signature) return FileFormat::png;
+  if (begins("\xFF\xD8\xFF")) return FileFormat::jpeg;
+  if (begins("\x76\x2F\x31\x01")) return FileFormat::exr;
+  for (const std::string_view magic : {std::string_view("II\x2A\0", 4), std::string_view("MM\0\x2A", 4),
+                                       std::string_view("II\x2B\0", 4), std::string_view("MM\0\x2B", 4)})
+    if (begins(magic)) return FileFormat::tiff;
+  throw Error(ErrorKind::cannot_read, path.string(),
+              "is no PNG, JPEG, TIFF or EXR image, by its first bytes; convert it to one of these");
+}
+
+void check_complete(const std::filesystem::path& path, FileFormat format) {
+  const FileBytes file(path);
+  switch (format) {
+  case FileFormat::png:
+    return check_png(file);
+  case FileFormat::jpeg:
+    return check_jpeg(file);
+  case FileFormat::tiff:
+    return TiffWalk(file).check();
+  case FileFormat::exr:
+    break;
+  }
+}
+
+} // namespace tilepack
