@@ -1,0 +1,256 @@
+#include "tilepack/verify/structure_checks.h"
+#include "tilepack/verify/tile_border.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+
+namespace tilepack {
+namespace {
+
+// One level of one map with the rectangles of its tiles; only tiles that are placed within the image.
+struct LevelView {
+  const Pack* pack;
+  const PackedMap* map;
+  int level;
+  const Image* image;
+  Size tile;
+  std::vector<std::optional<Rect>> rects; // by tile id
+};
+
+std::string place(const PackedMap& map, int level) {
+  return fmt::format("map {}, level {}", map.name, level);
+}
+
+bool right_size(const Pack& pack, const Image& image, Size tile) {
+  return !image.empty() && image.width() == static_cast<std::int64_t>(pack.layout.columns) * tile.width &&
+         image.height() == static_cast<std::int64_t>(pack.layout.rows) * tile.height;
+}
+
+LevelView view_of(const Pack& pack, const PackedMap& map, int level) {
+  const Image& image = map.levels[static_cast<std::size_t>(level)];
+  LevelView view{&pack, &map, level, &image, level_size(pack.tile_size, level), {}};
+  view.rects.resize(static_cast<std::size_t>(tile_count(pack.tiles)));
+  if (!right_size(pack, image, view.tile)) return view;
+  for (const Cell& cell : pack.layout.cells) {
+    const bool inside = cell.column >= 0 && cell.column < pack.layout.columns && cell.row >= 0 &&
+                        cell.row < pack.layout.rows && cell.tile >= 0 && cell.tile < tile_count(pack.tiles);
+    if (inside)
+      view.rects[cell.tile] =
+          Rect{cell.column * view.tile.width, cell.row * view.tile.height, view.tile.width, view.tile.height};
+  }
+  return view;
+}
+
+// Finds the first offending texel and their number; `good` judges a value.
+template <typename Good>
+void check_values(const LevelView& view, Rule rule, const char* expected, Good&& good,
+                  std::vector<Issue>& issues) {
+  const std::vector<float>& values = view.image->data();
+  std::size_t bad = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!good(values[i]) && bad++ == 0) first = i;
+  if (bad == 0) return;
+  const auto channels = static_cast<std::size_t>(view.image->channels());
+  const auto width = static_cast<std::size_t>(view.image->width());
+  const std::size_t texel = first / channels;
+  issues.push_back(
+      {rule,
+       fmt::format("{}, texel ({}, {}) channel {}", place(*view.map, view.level), texel % width,
+                   texel / width, first % channels),
+       fmt::format("{}{}", values[first], bad > 1 ? fmt::format(" and {} more values", bad - 1) : ""),
+       expected});
+}
+
+struct Member {
+  int tile;
+  std::vector<float> values;
+};
+
+// The values most tiles of the group have: if one tile was edited, it is that one that is named.
+const Member& majority(const std::vector<Member>& group) {
+  std::map<std::vector<float>, std::pair<int, const Member*>> votes;
+  for (const Member& member : group) {
+    auto& vote = votes.try_emplace(member.values, 0, &member).first->second;
+    ++vote.first;
+  }
+  const std::pair<int, const Member*>* best = nullptr;
+  for (const Member& member : group) { // in order of tiles, so that a tie goes to the lowest id
+    const auto& vote = votes.at(member.values);
+    if (!best || vote.first > best->first) best = &vote;
+  }
+  return *best->second;
+}
+
+// Reports each member that differs from the majority; `texel_at` gives the place of texel i within the tile.
+template <typename TexelAt, typename RuleAt, typename Name>
+void compare_group(const LevelView& view, const std::vector<Member>& group, TexelAt&& texel_at,
+                   RuleAt&& rule_at, Name&& name, std::vector<Issue>& issues) {
+  if (group.size() < 2) return;
+  const Member& usual = majority(group);
+  const auto channels = static_cast<std::size_t>(view.image->channels());
+  for (const Member& member : group) {
+    if (member.values == usual.values) continue;
+    std::size_t differing = 0;
+    std::size_t first = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < member.values.size(); i += channels) {
+      bool same = true;
+      for (std::size_t c = i; c < i + channels; ++c) {
+        if (member.values[c] == usual.values[c]) continue;
+        same = false;
+        largest = std::max(largest, std::abs(static_cast<double>(member.values[c]) - usual.values[c]));
+      }
+      if (!same && differing++ == 0) first = i / channels;
+    }
+    if (differing == 0) continue; // NaN beside NaN: another rule's matter
+    const bool integer = view.map->depth == Depth::u8 || view.map->depth == Depth::u16;
+    const TexelPlace spot = texel_at(static_cast<int>(first));
+    const Rect& rect = *view.rects[member.tile];
+    issues.push_back(
+        {rule_at(static_cast<int>(first)),
+         fmt::format("{}, tile {}, {}", place(*view.map, view.level), member.tile, name(member.tile)),
+         fmt::format("{} of {} texels differ, by up to {:.4g}{}; the first at ({}, {}) of the image",
+                     differing, member.values.size() / channels, integer ? largest * 255 : largest,
+                     integer ? "/255" : "", rect.x + spot.x, rect.y + spot.y),
+         fmt::format("the texels of tile {}", usual.tile)});
+  }
+}
+
+// All tiles that share a border color must agree in `strip`; rule_of_row tells which promise a row keeps.
+template <typename RuleOfRow>
+void check_strip(const LevelView& view, BorderStrip strip, RuleOfRow&& rule_of_row,
+                 std::vector<Issue>& issues) {
+  const int texels = texel_count(view.tile, strip);
+  if (texels <= 0) return;
+  const Pack& pack = *view.pack;
+  std::map<int, std::vector<Member>> groups;
+  for (int tile = 0; tile < tile_count(pack.tiles); ++tile)
+    if (view.rects[tile])
+      groups[border_key(pack.tiles, pack.colors, tile, strip.side)].push_back(
+          {tile, values_of(*view.image, *view.rects[tile], strip)});
+  const int row_length = texels / strip.rows;
+  for (const auto& [key, group] : groups)
+    compare_group(
+        view, group, [&](int i) { return texel_of(view.tile, strip, i); },
+        [&](int i) { return rule_of_row(i / row_length); },
+        [&](int tile) { return border_text(pack.tiles, tile, strip.side); }, issues);
+}
+
+int ceil_shift(int value, int shift) {
+  return (value + (1 << shift) - 1) >> shift;
+}
+
+void check_guard(const LevelView& view, std::vector<Issue>& issues) {
+  const Pack& pack = *view.pack;
+  const bool kept = view.level == 0 || pack.mip_mode != MipMode::least_squares;
+  const int rows = pack.guard >> view.level;
+  const bool corners_shared = coloring_of(pack.tiles) == Coloring::corner;
+  if (rows >= 1 && kept) {
+    const int skip = corners_shared ? 0 : ceil_shift(pack.guard, view.level);
+    for (const Side side : all_sides)
+      check_strip(
+          view, {side, rows, skip},
+          [&](int row) { return row == 0 && view.level == 0 ? Rule::edge_texels : Rule::guard_texels; },
+          issues);
+  } else if (view.level == 0 && pack.guard == 0) {
+    for (const Side side : all_sides)
+      check_strip(
+          view, {side, 1, 1}, [](int) { return Rule::edge_texels_unpromised; }, issues);
+  }
+}
+
+// Corner texels: one value a corner color, or one for all tiles where edges are colored.
+void check_corners(const LevelView& view, std::vector<Issue>& issues) {
+  const Pack& pack = *view.pack;
+  constexpr std::string_view names[] = {"north-west", "north-east", "south-west", "south-east"};
+  for (int corner = 0; corner < 4; ++corner) {
+    const TexelPlace spot{corner % 2 == 0 ? 0 : view.tile.width - 1, corner < 2 ? 0 : view.tile.height - 1};
+    std::map<int, std::vector<Member>> groups;
+    for (int tile = 0; tile < tile_count(pack.tiles); ++tile) {
+      if (!view.rects[tile]) continue;
+      int color = 0;
+      if (const auto* corners = std::get_if<std::vector<CornerTile>>(&pack.tiles)) {
+        const CornerTile& t = (*corners)[tile];
+        color = corner == 0 ? t.nw : corner == 1 ? t.ne : corner == 2 ? t.sw : t.se;
+      }
+      const auto texel = view.image->texel(view.rects[tile]->x + spot.x, view.rects[tile]->y + spot.y);
+      groups[color].push_back({tile, {texel.begin(), texel.end()}});
+    }
+    for (const auto& [color, group] : groups)
+      compare_group(
+          view, group, [&](int) { return spot; }, [](int) { return Rule::sanitized_corners; },
+          [&](int) { return fmt::format("{} corner", names[corner]); }, issues);
+  }
+}
+
+std::vector<Issue> check_level(const LevelView& view) {
+  std::vector<Issue> issues;
+  if (view.image->empty()) return issues;
+  check_values(
+      view, Rule::not_finite, "a finite number", [](float v) { return std::isfinite(v); }, issues);
+  if (view.map->depth != Depth::f32)
+    check_values(
+        view, Rule::not_representable,
+        view.map->depth == Depth::u8    ? "a multiple of 1/255 from 0 to 1"
+        : view.map->depth == Depth::u16 ? "a multiple of 1/65535 from 0 to 1"
+                                        : "a half float",
+        [depth = view.map->depth](float v) { return !std::isfinite(v) || quantised(v, depth) == v; }, issues);
+  check_guard(view, issues);
+  const MipMode mode = view.pack->mip_mode;
+  if (view.level >= 1 && (mode == MipMode::edges || mode == MipMode::corners))
+    for (const Side side : all_sides)
+      check_strip(
+          view, {side, 1, 1}, [](int) { return Rule::sanitized_edges; }, issues);
+  if (view.level >= 1 && mode == MipMode::corners) check_corners(view, issues);
+  return issues;
+}
+
+} // namespace
+
+std::vector<Issue> check_levels(const Pack& pack) {
+  std::vector<Issue> issues;
+  const int possible = level_count(pack.tile_size);
+  const int wanted = pack.mip_mode == MipMode::none ? 1 : possible;
+  if (pack.tile_levels != wanted)
+    issues.push_back({Rule::levels_missing, "mips.tile_levels", std::to_string(pack.tile_levels),
+                      fmt::format("{} for tiles of {} x {} and mips {}", wanted, pack.tile_size.width,
+                                  pack.tile_size.height, name_of(pack.mip_mode))});
+  for (const PackedMap& map : pack.maps) {
+    const int levels = static_cast<int>(map.levels.size());
+    if (levels != pack.tile_levels)
+      issues.push_back({Rule::levels_missing, fmt::format("map {}", map.name),
+                        fmt::format("{} levels", levels),
+                        fmt::format("{} levels, as mips.tile_levels says", pack.tile_levels)});
+    for (int level = 0; level < levels; ++level) {
+      const Image& image = map.levels[static_cast<std::size_t>(level)];
+      const Size tile = level_size(pack.tile_size, std::min(level, 30));
+      if (!image.empty() && !right_size(pack, image, tile))
+        issues.push_back({Rule::level_size, place(map, level),
+                          fmt::format("{} x {} texels", image.width(), image.height()),
+                          fmt::format("{} x {} tiles of {} x {}", pack.layout.columns, pack.layout.rows,
+                                      tile.width, tile.height)});
+    }
+  }
+  return issues;
+}
+
+std::vector<Issue> check_texels(const Pack& pack) {
+  std::vector<LevelView> views;
+  for (const PackedMap& map : pack.maps)
+    for (int level = 0; level < static_cast<int>(map.levels.size()) && level <= 30; ++level)
+      views.push_back(view_of(pack, map, level));
+  std::vector<std::vector<Issue>> found(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) { found[i] = check_level(views[i]); });
+  std::vector<Issue> issues;
+  for (auto& some : found) issues.insert(issues.end(), some.begin(), some.end());
+  return issues;
+}
+
+} // namespace tilepack

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "tilepack/pack/pack.h"
+#include "tilepack/verify/issues.h"
+
+#include <vector>
+
+namespace tilepack {
+
+/// The checks on a pack in memory, each listing all it finds. They hold for any pack, however broken: a level
+/// that is absent or has the wrong size, a tile id or a color out of range is reported once, by the check it
+/// belongs to, and left out by the others.
+
+/// Colors within their counts, each combination once where a hash chooses the tile.
+std::vector<Issue> check_tiles(const Pack& pack);
+
+/// Every tile in the grid once, and neighbours of the wrapping texture agreeing in the color between them.
+std::vector<Issue> check_layout(const Pack& pack);
+
+/// Hash table, index map and virtual size.
+std::vector<Issue> check_mapping(const Pack& pack);
+
+/// As many levels as announced, each the size of the grid times the tile's.
+std::vector<Issue> check_levels(const Pack& pack);
+
+/// Values finite and storable; the texels that tiles must share, shared:
+///   level 0        the guard band of each edge, `guard` texels deep (outermost row: TP403; deeper: TP404);
+///                  with no guard promised a differing outermost row is a warning (TP407)
+///   coarser        floor(guard / 2^level) texels of it, since a box filter keeps what is whole
+///   edges          the outermost row, corner texels excepted
+///   corners        the corner texels too
+/// With colored edges the squares where two bands cross are free; with colored corners they are shared too.
+std::vector<Issue> check_texels(const Pack& pack);
+
+/// All of these, in this order.
+std::vector<Issue> check_structure(const Pack& pack);
+
+} // namespace tilepack
