@@ -5,8 +5,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <map>
 #include <optional>
 
@@ -73,19 +74,29 @@ struct Member {
   std::vector<float> values;
 };
 
-// The values most tiles of the group have: if one tile was edited, it is that one that is named.
+// Bits, since NaN has no order; adding 0 makes -0 and 0 one.
+std::vector<std::uint32_t> comparable(const std::vector<float>& values) {
+  std::vector<std::uint32_t> bits(values.size());
+  std::transform(values.begin(), values.end(), bits.begin(),
+                 [](float v) { return std::bit_cast<std::uint32_t>(v + 0.0f); });
+  return bits;
+}
+
+// The values most tiles of the group have: if one tile was edited, it is that one that is named. A tie goes
+// to the lowest id.
 const Member& majority(const std::vector<Member>& group) {
-  std::map<std::vector<float>, std::pair<int, const Member*>> votes;
-  for (const Member& member : group) {
-    auto& vote = votes.try_emplace(member.values, 0, &member).first->second;
-    ++vote.first;
-  }
-  const std::pair<int, const Member*>* best = nullptr;
-  for (const Member& member : group) { // in order of tiles, so that a tie goes to the lowest id
-    const auto& vote = votes.at(member.values);
-    if (!best || vote.first > best->first) best = &vote;
-  }
-  return *best->second;
+  struct Vote {
+    int count;
+    const Member* first;
+  };
+  std::map<std::vector<std::uint32_t>, Vote> votes;
+  for (const Member& member : group)
+    ++votes.try_emplace(comparable(member.values), Vote{0, &member}).first->second.count;
+  const auto better = [](const auto& a, const auto& b) {
+    return a.second.count != b.second.count ? a.second.count < b.second.count
+                                            : a.second.first->tile > b.second.first->tile;
+  };
+  return *std::max_element(votes.begin(), votes.end(), better)->second.first;
 }
 
 // Reports each member that differs from the majority; `texel_at` gives the place of texel i within the tile.

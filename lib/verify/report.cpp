@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
+
 namespace tilepack {
 namespace {
 
@@ -12,6 +14,8 @@ using Json = nlohmann::ordered_json;
 std::string dumped(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
+
+constexpr int shown_of_a_rule = 8; // a broken set breaks a rule a hundred times, and eight tell the story
 
 std::string counted(int number, std::string_view noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
@@ -30,7 +34,9 @@ bool passed(const Report& report) {
 
 std::string report_text(const Report& report) {
   std::string text;
+  std::map<Rule, int> seen;
   for (const Issue& issue : report.issues) {
+    if (++seen[issue.rule] > shown_of_a_rule) continue;
     const RuleText& rule = text_of(issue.rule);
     text += fmt::format("{} {}: {}\n", name_of(rule.severity), code_of(issue.rule), rule.summary);
     if (!issue.where.empty()) text += fmt::format("  where     {}\n", issue.where);
@@ -38,6 +44,10 @@ std::string report_text(const Report& report) {
     if (!issue.expected.empty()) text += fmt::format("  expected  {}\n", issue.expected);
     text += fmt::format("  effect    {}\n  fix       {}\n\n", rule.why, rule.remedy);
   }
+  for (const auto& [rule, number] : seen)
+    if (number > shown_of_a_rule)
+      text += fmt::format("{} {}: {} more of these; --format json lists all\n\n",
+                          name_of(text_of(rule).severity), code_of(rule), number - shown_of_a_rule);
   text +=
       fmt::format("{}: {}. {} ({}, {}, {} looked at)\n", report.subject, passed(report) ? "passed" : "FAILED",
                   severity_counts(count(report.issues)), counted(report.tiles, "tile"),

@@ -20,7 +20,8 @@ struct Report {
 /// No error among the issues; warnings and notes are allowed.
 bool passed(const Report& report);
 
-/// For people: one paragraph an issue (what, where, found and expected, how to fix), then a line of counts.
+/// For people: one paragraph an issue (what, where, found and expected, how to fix), at most eight of a rule,
+/// then a line of counts.
 std::string report_text(const Report& report);
 
 /// For programs: the same as JSON, held to lib/verify/report.schema.json by a test. Ends in a newline.
