@@ -2,11 +2,12 @@
 
 #include "tilepack/error/error.h"
 
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <vector>
 
 namespace tilepack {
@@ -14,10 +15,11 @@ namespace {
 
 void require_same_shape(const Image& a, const Image& b) {
   if (a.size() == b.size() && a.channels() == b.channels() && !a.empty()) return;
-  throw Error(ErrorKind::invalid_content, "compare",
-              fmt::format("{} x {} texels of {} channels and {} x {} of {}; only images of one size and number of "
-                          "channels can be compared, crop or scale one of them",
-                          a.width(), a.height(), a.channels(), b.width(), b.height(), b.channels()));
+  throw Error(
+      ErrorKind::invalid_content, "compare",
+      fmt::format("{} x {} texels of {} channels and {} x {} of {}; only images of one size and number of "
+                  "channels can be compared, crop or scale one of them",
+                  a.width(), a.height(), a.channels(), b.width(), b.height(), b.channels()));
 }
 
 bool same(float a, float b) {
@@ -137,8 +139,8 @@ double structural_similarity(const Image& a, const Image& b, double peak) {
   const int wide = a.width() - static_cast<int>(across.size()) + 1;
   const int high = a.height() - static_cast<int>(down.size()) + 1;
   const auto channels = static_cast<std::size_t>(a.channels());
-  // The window is separable: down the columns first, then along the row. Rows are summed on their own, so that
-  // the result does not depend on threads.
+  // The window is separable: down the columns first, then along the row. Rows are summed on their own, so
+  // that the result does not depend on threads.
   std::vector<double> row_sums(static_cast<std::size_t>(high), 0.0);
   tbb::parallel_for(0, high, [&](int y) {
     std::vector<Moments> columns(a.row(0).size());

@@ -7,23 +7,24 @@
 
 namespace tilepack {
 
-/// How far two images of one size are apart. Values are compared as stored (sRGB-encoded color stays encoded),
-/// all channels alike, alpha too. `scale` turns differences into the unit reported: 255 gives 8-bit units.
+/// How far two images of one size are apart. Values are compared as stored (sRGB-encoded color stays
+/// encoded), all channels alike, alpha too. `scale` turns differences into the unit reported: 255 gives 8-bit
+/// units.
 struct ImageDifference {
-  bool equal = false;       ///< every value has the same bits, but for the sign of 0; NaN equals NaN
+  bool equal = false;              ///< every value has the same bits, but for the sign of 0; NaN equals NaN
   std::int64_t differing = 0;      ///< texels with a channel that differs
-  std::int64_t not_comparable = 0; ///< texels where a value of either image is NaN or infinite and the other is not
-                                   ///< the same; left out of all figures below
-  double largest = 0;       ///< largest absolute difference of a value, in units
-  int largest_x = 0;        ///< the texel where it is: the first, row by row
+  std::int64_t not_comparable = 0; ///< texels where a value of either image is NaN or infinite and the other
+                                   ///< is not the same; left out of all figures below
+  double largest = 0; ///< largest absolute difference of a value, in units
+  int largest_x = 0;  ///< the texel where it is: the first, row by row
   int largest_y = 0;
   int largest_channel = 0;
-  double mean = 0;          ///< mean absolute difference, in units
-  double rms = 0;           ///< root of the mean squared difference, in units
+  double mean = 0;            ///< mean absolute difference, in units
+  double rms = 0;             ///< root of the mean squared difference, in units
   std::optional<double> psnr; ///< 20 log10(peak * scale / rms), dB; absent when rms is 0: infinite
-  double ssim = 1;          ///< see structural_similarity
-  double peak = 1;          ///< the value that counts as full range: 1, or for `unbounded` the largest magnitude in
-                            ///< either image (1 if both are 0)
+  double ssim = 1;            ///< see structural_similarity
+  double peak = 1; ///< the value that counts as full range: 1, or for `unbounded` the largest magnitude in
+                   ///< either image (1 if both are 0)
 };
 
 enum class ValueRange {

@@ -1,6 +1,5 @@
-#include "tilepack/verify/image_metrics.h"
-
 #include "tilepack/error/error.h"
+#include "tilepack/verify/image_metrics.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -15,7 +14,8 @@ Image lattice(int twist, int channels = 1) {
   Image image(24, 17, channels);
   for (int y = 0; y < 17; ++y)
     for (int x = 0; x < 24; ++x)
-      for (float& v : image.texel(x, y)) v = static_cast<float>((x * 7 + y * 13 + twist * x * y) % 32 * 8) / 255.0f;
+      for (float& v : image.texel(x, y))
+        v = static_cast<float>((x * 7 + y * 13 + twist * x * y) % 32 * 8) / 255.0f;
   return image;
 }
 
@@ -36,7 +36,8 @@ TEST_CASE("figures of a known pair, computed by the definitions in another progr
     const Image a = lattice(1, channels);
     const Image twisted = lattice(2, channels);
     Image b = a;
-    for (std::size_t i = 0; i < b.data().size(); ++i) b.data()[i] = 0.75f * a.data()[i] + 0.25f * twisted.data()[i];
+    for (std::size_t i = 0; i < b.data().size(); ++i)
+      b.data()[i] = 0.75f * a.data()[i] + 0.25f * twisted.data()[i];
     const ImageDifference d = difference(a, b, ValueRange::unit, 255);
     CHECK(d.psnr.value() == Approx(19.9951245).epsilon(1e-6));
     CHECK(d.ssim == Approx(0.9204577).epsilon(1e-5));
