@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/image.h"
+#include "tilepack/layout/rotated_scheme.h"
 #include "tilepack/tileset/tile_colors.h"
 
 #include <string_view>
@@ -8,7 +9,12 @@
 
 namespace tilepack {
 
-enum class LayoutKind { tile_index, de_bruijn, rotated, array };
+enum class LayoutKind {
+  tile_index, ///< complete edge-colored set in a grid, neighbours agree along edges (tile_index.h)
+  de_bruijn,  ///< complete corner-colored set in a grid, neighbours agree at corners too (de_bruijn.h)
+  rotated,    ///< any N = n² + k² tiles (or twice that), turned, filling a torus (rotated_layout.h)
+  array,      ///< one tile a layer of a texture array (array_layout.h)
+};
 
 /// As in pack.json and options: "tile-index", "de-bruijn", "rotated", "array".
 std::string_view name_of(LayoutKind kind);
@@ -21,16 +27,62 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-/// The places of all tiles in one texture, each tile once. The texture wraps at its borders.
+/// What a rotated layout adds: the scheme, and the texture it fills.
+struct RotatedGrid {
+  RotatedScheme scheme;
+  int gutter = 0; ///< texels of level 0 round each tile that are its own continuation, 0..tile side
+  Size size;      ///< of the texture at level 0, texels
+  bool operator==(const RotatedGrid&) const = default;
+};
+
+/// The places of all tiles in one texture, each tile once.
+///
+///   tile_index, de_bruijn   a grid of columns × rows tiles; the texture wraps at its borders
+///   array                   1 × N: the layers, one below the other, each with `border` texels round its
+///   tile;
+///                           nothing wraps, layers are apart
+///   rotated                 the texture wraps; a cell's north-west corner (gutter included) lies at
+///                           (column / columns, row / rows) of the texture's sides: the places that the
+///                           scheme can reach form a fine grid, of which it uses N
 struct Layout {
   LayoutKind kind = LayoutKind::tile_index;
   int columns = 0;
   int rows = 0;
   std::vector<Cell> cells; ///< in the order of the tiles' ids
+  int border = 0;          ///< array: texels round each tile at level 0, halved from level to level
+  RotatedGrid rotated;     ///< rotated only
   bool operator==(const Layout&) const = default;
 };
 
-/// All tiles of one level placed as `layout` says: an image of columns × rows tiles.
+/// The size of the texture at `level`, where a tile has tile_size texels at level 0.
+Size texture_size(const Layout& layout, Size tile_size, int level);
+
+/// How many of `tile_levels` levels the layout can hold: an array with borders ends where a border would be
+/// half a texel; a rotated layout ends before tiles that own no texel.
+int levels_held(const Layout& layout, Size tile_size, int tile_levels);
+
+/// Where a tile lies in the texture of one level: the point (x, y) of the tile, as fractions 0..1 of its
+/// sides, is at texel coordinate origin + x * east + y * south.
+struct Placement {
+  struct Vector {
+    double x = 0;
+    double y = 0;
+    bool operator==(const Vector&) const = default;
+  };
+  Vector origin;
+  Vector east;
+  Vector south;
+
+  Vector at(double x, double y) const {
+    return {origin.x + x * east.x + y * south.x, origin.y + x * east.y + y * south.y};
+  }
+};
+
+/// Exact for grids and arrays: origin and axes are whole texels there.
+Placement placement(const Layout& layout, int tile, Size tile_size, int level);
+
+/// All tiles of one level of a grid layout (tile_index, de_bruijn, array without border) side by side: an
+/// image of columns × rows tiles.
 Image atlas(const std::vector<Image>& tiles, const Layout& layout);
 
 /// Inverse of atlas: the tiles by id, cut out of `image`, whose size must be a multiple of the grid.
