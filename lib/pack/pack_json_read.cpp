@@ -1,0 +1,262 @@
+#include "tilepack/error/error.h"
+#include "tilepack/pack/file_name.h"
+#include "tilepack/pack/json_cursor.h"
+#include "tilepack/pack/pack_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace tilepack {
+namespace {
+
+constexpr int largest_tile_side = 16384;
+constexpr int most_colors = 8;
+constexpr std::size_t most_tiles = 4096; // the complete set of 8 × 8 edge colors
+constexpr std::size_t most_maps = 64;
+constexpr std::size_t longest_table = 65536;
+constexpr std::int64_t largest_virtual_side = std::int64_t{1} << 31;
+constexpr std::int64_t largest_index_side = 65536;
+constexpr std::int64_t most_index_cells = std::int64_t{1} << 26;
+constexpr std::int64_t largest_seed = (std::int64_t{1} << 53) - 1; // whole in every JSON reader
+
+using LevelFiles = std::vector<PackDescription::LevelFile>;
+
+// The enumerator whose name stands at `value`; `last` ends the enumeration.
+template <typename Enum>
+Enum named(const JsonCursor& value, Enum last) {
+  std::vector<std::string> names;
+  for (int i = 0; i <= static_cast<int>(last); ++i) names.emplace_back(name_of(static_cast<Enum>(i)));
+  return static_cast<Enum>(value.one_of(names));
+}
+
+Size read_size(const JsonCursor& value, int largest) {
+  value.array(2, 2);
+  return {value.item(0).small_integer(1, largest), value.item(1).small_integer(1, largest)};
+}
+
+Generator read_generator(const JsonCursor& value) {
+  value.only({"name", "version", "options", "seed"});
+  Generator generator;
+  generator.name = value.member("name").text();
+  generator.version = value.member("version").text();
+  const JsonCursor options = value.member("options");
+  for (const std::string& name : options.names())
+    generator.options.emplace_back(name, options.member(name).text());
+  generator.seed = static_cast<std::uint64_t>(value.member("seed").integer(0, largest_seed));
+  return generator;
+}
+
+ColorCounts read_colors(const JsonCursor& value, Coloring coloring) {
+  if (coloring == Coloring::corner) {
+    value.only({"corner"});
+    return {0, 0, value.member("corner").small_integer(1, most_colors)};
+  }
+  value.only({"horizontal", "vertical"});
+  return {value.member("horizontal").small_integer(1, most_colors),
+          value.member("vertical").small_integer(1, most_colors), 0};
+}
+
+TileColors read_tiles(const JsonCursor& list, Coloring coloring, const ColorCounts& colors) {
+  const std::size_t count = list.array(1, most_tiles);
+  std::vector<EdgeTile> edge;
+  std::vector<CornerTile> corner;
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonCursor tile = list.item(i);
+    tile.member("id").integer(static_cast<int>(i), static_cast<int>(i));
+    const auto color = [&](const char* name, int number) {
+      return tile.member(name).small_integer(0, number - 1);
+    };
+    if (coloring == Coloring::edge) {
+      tile.only({"id", "north", "east", "south", "west"});
+      edge.push_back({color("north", colors.horizontal), color("east", colors.vertical),
+                      color("south", colors.horizontal), color("west", colors.vertical)});
+    } else {
+      tile.only({"id", "nw", "ne", "sw", "se"});
+      corner.push_back({color("nw", colors.corner), color("ne", colors.corner), color("sw", colors.corner),
+                        color("se", colors.corner)});
+    }
+  }
+  if (coloring == Coloring::edge) return edge;
+  return corner;
+}
+
+// Cells stand in the order of the tiles' ids, each tile once: Layout relies on it.
+Layout read_layout(const JsonCursor& value, int tiles) {
+  value.only({"kind", "columns", "rows", "cells"});
+  Layout layout;
+  layout.kind = named(value.member("kind"), LayoutKind::array);
+  layout.columns = value.member("columns").small_integer(1, static_cast<int>(most_tiles));
+  layout.rows = value.member("rows").small_integer(1, static_cast<int>(most_tiles));
+  const JsonCursor cells = value.member("cells");
+  cells.array(static_cast<std::size_t>(tiles), static_cast<std::size_t>(tiles));
+  for (int i = 0; i < tiles; ++i) {
+    const JsonCursor cell = cells.item(static_cast<std::size_t>(i));
+    cell.only({"tile", "column", "row"});
+    layout.cells.push_back({cell.member("tile").small_integer(i, i),
+                            cell.member("column").small_integer(0, layout.columns - 1),
+                            cell.member("row").small_integer(0, layout.rows - 1)});
+  }
+  return layout;
+}
+
+// A grid of tiles as one level stores it.
+struct Grid {
+  Size tile;
+  int columns;
+  int rows;
+  int levels;
+};
+
+LevelFiles read_levels(const JsonCursor& list, const Grid& grid, std::set<std::string>& used) {
+  const auto count = static_cast<std::size_t>(grid.levels);
+  list.array(count, count);
+  LevelFiles levels;
+  for (int l = 0; l < grid.levels; ++l) {
+    const JsonCursor level = list.item(static_cast<std::size_t>(l));
+    level.only({"file", "size"});
+    const JsonCursor file = level.member("file");
+    const std::string name = file.text();
+    if (const std::string fault = file_name_fault(name); !fault.empty())
+      file.fail(fmt::format("{} {}; files are named relative to pack.json and lie in its folder",
+                            file.shown(), fault));
+    if (!used.insert(name).second) file.fail(fmt::format("{} is named twice", file.shown()));
+    const JsonCursor size_field = level.member("size");
+    const Size size = read_size(size_field, INT32_MAX);
+    const Size tile = level_size(grid.tile, l);
+    if (size.width != std::int64_t{tile.width} * grid.columns ||
+        size.height != std::int64_t{tile.height} * grid.rows)
+      size_field.fail(fmt::format("[{}, {}] is not {} x {} tiles of {} x {} texels, [{}, {}]", size.width,
+                                  size.height, grid.columns, grid.rows, tile.width, tile.height,
+                                  std::int64_t{tile.width} * grid.columns,
+                                  std::int64_t{tile.height} * grid.rows));
+    if (std::int64_t{size.width} * size.height > most_texels_a_level)
+      size_field.fail(
+          fmt::format("[{}, {}] is more than {} texels", size.width, size.height, most_texels_a_level));
+    levels.push_back({name, size});
+  }
+  return levels;
+}
+
+std::vector<PackedMap> read_maps(const JsonCursor& list, const Grid& grid, std::vector<LevelFiles>& files,
+                                 std::set<std::string>& used) {
+  std::vector<PackedMap> maps;
+  std::set<std::string> names;
+  const std::size_t count = list.array(1, most_maps);
+  for (std::size_t m = 0; m < count; ++m) {
+    const JsonCursor value = list.item(m);
+    value.only({"name", "role", "encoding", "depth", "channels", "levels"});
+    PackedMap map;
+    const JsonCursor name = value.member("name");
+    map.name = name.text();
+    if (!is_map_name(map.name))
+      name.fail(fmt::format("{} is no name of a map: 1 to 64 letters, digits, '-' and '_'", name.shown()));
+    if (!names.insert(map.name).second) name.fail(fmt::format("{} stands twice", name.shown()));
+    map.role = named(value.member("role"), Role::data);
+    map.encoding = named(value.member("encoding"), Encoding::linear);
+    map.depth = named(value.member("depth"), Depth::f32);
+    map.channels = value.member("channels").small_integer(1, 4);
+    files.push_back(read_levels(value.member("levels"), grid, used));
+    maps.push_back(std::move(map));
+  }
+  return maps;
+}
+
+Mapping read_mapping(const JsonCursor& value, std::string& index_file, std::set<std::string>& used) {
+  Mapping mapping;
+  mapping.kind = named(value.member("kind"), MappingKind::index);
+  const bool stored = mapping.kind == MappingKind::index;
+  const JsonCursor size = value.member("virtual_size");
+  const std::int64_t largest = stored ? largest_index_side : largest_virtual_side;
+  size.array(2, 2);
+  mapping.size = {size.item(0).integer(1, largest), size.item(1).integer(1, largest)};
+  switch (mapping.kind) {
+  case MappingKind::permutation: {
+    value.only({"kind", "virtual_size", "table"});
+    const JsonCursor table = value.member("table");
+    const std::size_t length = table.array(1, longest_table);
+    for (std::size_t i = 0; i < length; ++i)
+      mapping.table.push_back(table.item(i).small_integer(0, static_cast<int>(length) - 1));
+    break;
+  }
+  case MappingKind::mix:
+    value.only({"kind", "virtual_size", "seed"});
+    mapping.seed = static_cast<std::uint64_t>(value.member("seed").integer(0, largest_seed));
+    break;
+  case MappingKind::index: {
+    value.only({"kind", "virtual_size", "file"});
+    if (mapping.size.width * mapping.size.height > most_index_cells)
+      size.fail(fmt::format("{} x {} cells; an index map has at most {}", mapping.size.width,
+                            mapping.size.height, most_index_cells));
+    const JsonCursor file = value.member("file");
+    index_file = file.text();
+    if (const std::string fault = file_name_fault(index_file); !fault.empty())
+      file.fail(fmt::format("{} {}; files are named relative to pack.json and lie in its folder",
+                            file.shown(), fault));
+    if (!used.insert(index_file).second) file.fail(fmt::format("{} is named twice", file.shown()));
+    break;
+  }
+  }
+  return mapping;
+}
+
+// The hashes answer with colors, and the id follows from them only in a complete set in its usual order.
+void check_complete(const JsonCursor& list, const TileColors& tiles, const ColorCounts& colors) {
+  const TileColors complete = coloring_of(tiles) == Coloring::edge
+                                  ? TileColors(complete_edge_set(colors.horizontal, colors.vertical))
+                                  : TileColors(complete_corner_set(colors.corner));
+  if (tiles != complete)
+    list.fail(
+        fmt::format("holds {} tiles that are not the {} of the complete set in lexicographic order; only "
+                    "an index mapping can do with others",
+                    tile_count(tiles), tile_count(complete)));
+}
+
+void read_mips(const JsonCursor& value, Pack& pack) {
+  value.only({"filter", "sanitize", "guard", "tile_levels"});
+  const bool box = value.member("filter").one_of({"none", "box"}) == 1;
+  const JsonCursor sanitize = value.member("sanitize");
+  const std::size_t mode = sanitize.one_of({"none", "edges", "corners", "least-squares"});
+  if (!box && mode != 0) sanitize.fail(fmt::format("is {} though \"filter\" is \"none\"", sanitize.shown()));
+  pack.mip_mode = box ? static_cast<MipMode>(mode + 1) : MipMode::none;
+  pack.guard = value.member("guard").small_integer(0, std::max(pack.tile_size.width, pack.tile_size.height));
+  pack.tile_levels = value.member("tile_levels").small_integer(1, box ? level_count(pack.tile_size) : 1);
+}
+
+} // namespace
+
+PackDescription parsed_pack_json(std::string_view text, const std::string& file) {
+  const JsonCursor root = JsonCursor::parse(text, file);
+  root.member("format").one_of({"tilepack"});
+  root.member("version").integer(1, 1);
+  root.only({"format", "version", "generator", "tile_size", "coloring", "colors", "tiles", "layout", "maps",
+             "mapping", "corner_pack", "mips"});
+  PackDescription result;
+  Pack& pack = result.pack;
+  pack.generator = read_generator(root.member("generator"));
+  pack.tile_size = read_size(root.member("tile_size"), largest_tile_side);
+  const auto coloring = static_cast<Coloring>(root.member("coloring").one_of({"edge", "corner"}));
+  pack.colors = read_colors(root.member("colors"), coloring);
+  pack.tiles = read_tiles(root.member("tiles"), coloring, pack.colors);
+  pack.layout = read_layout(root.member("layout"), tile_count(pack.tiles));
+  read_mips(root.member("mips"), pack);
+  std::set<std::string> used{"pack.json"};
+  const Grid grid{pack.tile_size, pack.layout.columns, pack.layout.rows, pack.tile_levels};
+  pack.maps = read_maps(root.member("maps"), grid, result.map_files, used);
+  pack.mapping = read_mapping(root.member("mapping"), result.index_file, used);
+  if (pack.mapping.kind != MappingKind::index) check_complete(root.member("tiles"), pack.tiles, pack.colors);
+  if (const auto corner = root.find("corner_pack")) {
+    corner->only({"columns", "rows", "maps"});
+    CornerPack packed;
+    packed.columns = corner->member("columns").small_integer(1, most_colors * most_colors);
+    packed.rows = corner->member("rows").small_integer(1, most_colors * most_colors);
+    packed.maps =
+        read_maps(corner->member("maps"), {pack.tile_size, packed.columns, packed.rows, pack.tile_levels},
+                  result.corner_files, used);
+    pack.corner_pack = std::move(packed);
+  }
+  return result;
+}
+
+} // namespace tilepack

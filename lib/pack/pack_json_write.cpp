@@ -1,0 +1,221 @@
+#include "tilepack/image/image_file.h"
+#include "tilepack/pack/pack_json.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace tilepack {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t line_width = 110;
+
+// One line where it fits, else one member or entry a line; runs of plain numbers are filled up to the width,
+// so that a table of 512 numbers takes 20 lines and not 512.
+void print(const Json& value, std::size_t indent, std::size_t used, std::string& out) {
+  const std::string flat = value.dump();
+  if (!value.is_structured() || used + flat.size() <= line_width) {
+    // dump() packs tightly; reread by a person, commas and colons want a space.
+    bool inside_text = false;
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+      out += flat[i];
+      if (flat[i] == '\\')
+        out += flat[++i];
+      else if (flat[i] == '"')
+        inside_text = !inside_text;
+      else if (!inside_text && (flat[i] == ',' || flat[i] == ':'))
+        out += ' ';
+    }
+    return;
+  }
+  const bool is_object = value.is_object();
+  const bool fill = !is_object && std::all_of(value.begin(), value.end(),
+                                              [](const Json& entry) { return entry.is_number(); });
+  const std::string start(indent + 2, ' ');
+  out += is_object ? '{' : '[';
+  std::size_t column = line_width;
+  bool first = true;
+  for (const auto& [name, entry] : value.items()) {
+    if (!first) out += ',';
+    std::string text = is_object ? Json(name).dump() + ": " : "";
+    print(entry, indent + 2, indent + 2 + text.size() + 1, text);
+    if (fill && column + text.size() + 2 <= line_width) {
+      out += ' ';
+      column += text.size() + 2;
+    } else {
+      out += '\n' + start;
+      column = start.size() + text.size() + 1;
+    }
+    out += text;
+    first = false;
+  }
+  out += '\n' + std::string(indent, ' ') + (is_object ? '}' : ']');
+}
+
+Json size_json(Size size) {
+  return Json::array({size.width, size.height});
+}
+
+Json tiles_json(const TileColors& tiles) {
+  Json list = Json::array();
+  if (const auto* edge = std::get_if<std::vector<EdgeTile>>(&tiles)) {
+    for (const EdgeTile& t : *edge)
+      list.push_back(
+          {{"id", list.size()}, {"north", t.north}, {"east", t.east}, {"south", t.south}, {"west", t.west}});
+  } else {
+    for (const CornerTile& t : std::get<std::vector<CornerTile>>(tiles))
+      list.push_back({{"id", list.size()}, {"nw", t.nw}, {"ne", t.ne}, {"sw", t.sw}, {"se", t.se}});
+  }
+  return list;
+}
+
+Json layout_json(const Layout& layout) {
+  Json cells = Json::array();
+  for (const Cell& cell : layout.cells)
+    cells.push_back({{"tile", cell.tile}, {"column", cell.column}, {"row", cell.row}});
+  return {{"kind", name_of(layout.kind)},
+          {"columns", layout.columns},
+          {"rows", layout.rows},
+          {"cells", std::move(cells)}};
+}
+
+using LevelFiles = std::vector<PackDescription::LevelFile>;
+
+Json maps_json(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>& files) {
+  Json list = Json::array();
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    Json levels = Json::array();
+    for (const auto& level : files[m])
+      levels.push_back({{"file", level.file}, {"size", size_json(level.size)}});
+    list.push_back({{"name", maps[m].name},
+                    {"role", name_of(maps[m].role)},
+                    {"encoding", name_of(maps[m].encoding)},
+                    {"depth", name_of(maps[m].depth)},
+                    {"channels", maps[m].channels},
+                    {"levels", std::move(levels)}});
+  }
+  return list;
+}
+
+Json mapping_json(const Mapping& mapping, const std::string& index_file) {
+  Json json = {{"kind", name_of(mapping.kind)},
+               {"virtual_size", Json::array({mapping.size.width, mapping.size.height})}};
+  switch (mapping.kind) {
+  case MappingKind::permutation:
+    json["table"] = mapping.table;
+    break;
+  case MappingKind::mix:
+    json["seed"] = mapping.seed;
+    break;
+  case MappingKind::index:
+    json["file"] = index_file;
+    break;
+  }
+  return json;
+}
+
+Json generator_json(const Generator& generator) {
+  auto sorted = generator.options;
+  std::sort(sorted.begin(), sorted.end());
+  Json options = Json::object();
+  for (const auto& [name, value] : sorted) options[name] = value;
+  return {{"name", generator.name},
+          {"version", generator.version},
+          {"options", std::move(options)},
+          {"seed", generator.seed}};
+}
+
+Json mips_json(const Pack& pack) {
+  const bool filtered = pack.mip_mode != MipMode::none;
+  const bool sanitized = filtered && pack.mip_mode != MipMode::box;
+  return {{"filter", filtered ? "box" : "none"},
+          {"sanitize", sanitized ? name_of(pack.mip_mode) : "none"},
+          {"guard", pack.guard},
+          {"tile_levels", pack.tile_levels}};
+}
+
+std::vector<LevelFiles> named_files(const std::vector<PackedMap>& maps, const std::string& prefix) {
+  std::vector<LevelFiles> files;
+  for (const PackedMap& map : maps) {
+    LevelFiles levels;
+    for (const Image& image : map.levels)
+      levels.push_back({fmt::format("{}{}_{}.{}", prefix, map.name, levels.size(), extension_for(map.depth)),
+                        image.size()});
+    files.push_back(std::move(levels));
+  }
+  return files;
+}
+
+void append_files(std::vector<std::string>& list, const std::vector<LevelFiles>& maps) {
+  for (const LevelFiles& levels : maps)
+    for (const auto& level : levels) list.push_back(level.file);
+}
+
+std::vector<PackedMap> without_levels(const std::vector<PackedMap>& maps) {
+  std::vector<PackedMap> bare;
+  for (const PackedMap& m : maps) bare.push_back({m.name, m.role, m.encoding, m.depth, m.channels, {}});
+  return bare;
+}
+
+} // namespace
+
+std::vector<std::string> PackDescription::all_files() const {
+  std::vector<std::string> list;
+  append_files(list, map_files);
+  append_files(list, corner_files);
+  if (!index_file.empty()) list.push_back(index_file);
+  return list;
+}
+
+PackDescription described(const Pack& pack) {
+  PackDescription result;
+  Pack& bare = result.pack;
+  bare.generator = pack.generator;
+  bare.tile_size = pack.tile_size;
+  bare.colors = pack.colors;
+  bare.tiles = pack.tiles;
+  bare.layout = pack.layout;
+  bare.maps = without_levels(pack.maps);
+  bare.mapping = {pack.mapping.kind, pack.mapping.size, pack.mapping.table, pack.mapping.seed, {}};
+  bare.mip_mode = pack.mip_mode;
+  bare.guard = pack.guard;
+  bare.tile_levels = pack.tile_levels;
+  result.map_files = named_files(pack.maps, "");
+  if (pack.corner_pack) {
+    const CornerPack& corner = *pack.corner_pack;
+    bare.corner_pack = CornerPack{corner.columns, corner.rows, without_levels(corner.maps)};
+    result.corner_files = named_files(corner.maps, "corner.");
+  }
+  if (pack.mapping.kind == MappingKind::index) result.index_file = "index.png";
+  return result;
+}
+
+std::string pack_json(const PackDescription& description) {
+  const Pack& pack = description.pack;
+  const bool edge = coloring_of(pack.tiles) == Coloring::edge;
+  Json json;
+  json["format"] = "tilepack";
+  json["version"] = 1;
+  json["generator"] = generator_json(pack.generator);
+  json["tile_size"] = size_json(pack.tile_size);
+  json["coloring"] = edge ? "edge" : "corner";
+  json["colors"] = edge ? Json{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
+                        : Json{{"corner", pack.colors.corner}};
+  json["tiles"] = tiles_json(pack.tiles);
+  json["layout"] = layout_json(pack.layout);
+  json["maps"] = maps_json(pack.maps, description.map_files);
+  json["mapping"] = mapping_json(pack.mapping, description.index_file);
+  if (pack.corner_pack)
+    json["corner_pack"] = {{"columns", pack.corner_pack->columns},
+                           {"rows", pack.corner_pack->rows},
+                           {"maps", maps_json(pack.corner_pack->maps, description.corner_files)}};
+  json["mips"] = mips_json(pack);
+  std::string text;
+  print(json, 0, 0, text);
+  return text + '\n';
+}
+
+} // namespace tilepack
