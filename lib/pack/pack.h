@@ -13,6 +13,13 @@
 
 namespace tilepack {
 
+/// The most texels one level of a map may have: 16384 x 16384, beyond what graphics hardware takes. Limits
+/// what reading a pack can make a program allocate.
+constexpr std::int64_t most_texels_a_level = std::int64_t{1} << 28;
+
+/// The largest seed: whole in every JSON reader, also those that keep numbers as doubles.
+constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;
+
 /// One map of a pack: its levels as placed images, finest first, values as stored (rounded to `depth`).
 struct PackedMap {
   std::string name;

@@ -19,7 +19,6 @@ constexpr std::size_t longest_table = 65536;
 constexpr std::int64_t largest_virtual_side = std::int64_t{1} << 31;
 constexpr std::int64_t largest_index_side = 65536;
 constexpr std::int64_t most_index_cells = std::int64_t{1} << 26;
-constexpr std::int64_t largest_seed = (std::int64_t{1} << 53) - 1; // whole in every JSON reader
 
 using LevelFiles = std::vector<PackDescription::LevelFile>;
 
@@ -44,7 +43,8 @@ Generator read_generator(const JsonCursor& value) {
   const JsonCursor options = value.member("options");
   for (const std::string& name : options.names())
     generator.options.emplace_back(name, options.member(name).text());
-  generator.seed = static_cast<std::uint64_t>(value.member("seed").integer(0, largest_seed));
+  generator.seed =
+      static_cast<std::uint64_t>(value.member("seed").integer(0, static_cast<std::int64_t>(largest_seed)));
   return generator;
 }
 
@@ -182,7 +182,8 @@ Mapping read_mapping(const JsonCursor& value, std::string& index_file, std::set<
   }
   case MappingKind::mix:
     value.only({"kind", "virtual_size", "seed"});
-    mapping.seed = static_cast<std::uint64_t>(value.member("seed").integer(0, largest_seed));
+    mapping.seed =
+        static_cast<std::uint64_t>(value.member("seed").integer(0, static_cast<std::int64_t>(largest_seed)));
     break;
   case MappingKind::index: {
     value.only({"kind", "virtual_size", "file"});

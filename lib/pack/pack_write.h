@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/error/progress.h"
 #include "tilepack/pack/pack.h"
 
 #include <filesystem>
@@ -8,10 +9,11 @@ namespace tilepack {
 
 /// Writes pack.json and the images into `folder`, which is made if missing.
 ///
-/// All or nothing: everything is first written under temporary names, and put in place only when complete. A
-/// folder that already holds a tile pack has that pack replaced (files that are not the pack's stay as they
-/// are); a folder that holds anything else is refused. Throws Error (cannot_write). The same pack gives the
-/// same bytes.
-void write_pack(const Pack& pack, const std::filesystem::path& folder);
+/// All or nothing: every file is first written to a staging folder, and moved into place only when all are
+/// complete, pack.json last. A folder that already holds a tile pack has that pack replaced: its files that
+/// no longer belong go, files that are not the pack's stay as they are. A folder that holds something else,
+/// or a pack.json that can't be read as a tile pack, is refused. If anything fails, or `progress` throws,
+/// the folder is as it was. Throws Error (cannot_write). The same pack gives the same bytes.
+void write_pack(const Pack& pack, const std::filesystem::path& folder, const Progress& progress = {});
 
 } // namespace tilepack
