@@ -1,0 +1,229 @@
+#include "tilepack/pack/bake_fields.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <map>
+
+namespace tilepack {
+namespace {
+
+[[noreturn]] void refuse(const std::string& text, const std::string& allowed) {
+  throw Error(ErrorKind::usage, "", fmt::format("'{}' is not allowed; it must be {}", text, allowed));
+}
+
+// Digits only: no sign, no blank, no fraction; beyond 64 bits is out of range as well.
+bool parse_whole(std::string_view text, std::int64_t lowest, std::int64_t highest, std::int64_t& value) {
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return fault == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest;
+}
+
+std::int64_t whole(const std::string& text, std::int64_t lowest, std::int64_t highest) {
+  std::int64_t value = 0;
+  if (!parse_whole(text, lowest, highest, value))
+    refuse(text, fmt::format("a whole number of {} to {}", lowest, highest));
+  return value;
+}
+
+struct Extent {
+  std::int64_t width;
+  std::int64_t height;
+};
+
+// "5" or "5x7".
+Extent extent(const std::string& text, std::int64_t lowest, std::int64_t highest,
+              const std::string& words = "") {
+  const std::size_t cross = text.find('x');
+  Extent e{};
+  if (!parse_whole(std::string_view(text).substr(0, cross), lowest, highest, e.width) ||
+      !parse_whole(std::string_view(text).substr(cross == std::string::npos ? 0 : cross + 1), lowest, highest,
+                   e.height))
+    refuse(text, fmt::format("N or WxH with {} to {}{}", lowest, highest, words));
+  return e;
+}
+
+std::string shown(std::int64_t width, std::int64_t height) {
+  return width == height ? fmt::format("{}", width) : fmt::format("{}x{}", width, height);
+}
+
+template <typename Enum>
+struct Choice {
+  const char* name;
+  Enum value;
+};
+
+constexpr std::array colorings{Choice{"edge", Coloring::edge}, Choice{"corner", Coloring::corner}};
+constexpr std::array interiors{Choice{"patch", Interior::patch}, Choice{"quilt", Interior::quilt}};
+constexpr std::array layouts{Choice{"tile-index", LayoutKind::tile_index},
+                             Choice{"de-bruijn", LayoutKind::de_bruijn},
+                             Choice{"rotated", LayoutKind::rotated}, Choice{"array", LayoutKind::array}};
+constexpr std::array mip_modes{Choice{"none", MipMode::none}, Choice{"box", MipMode::box},
+                               Choice{"edges", MipMode::edges}, Choice{"corners", MipMode::corners},
+                               Choice{"least-squares", MipMode::least_squares}};
+constexpr std::array mappings{Choice{"permutation", MappingKind::permutation},
+                              Choice{"mix", MappingKind::mix}, Choice{"index", MappingKind::index}};
+constexpr std::array formats{Choice{"png", FileFormat::png}, Choice{"exr", FileFormat::exr}};
+constexpr std::array depths{Choice{"u8", Depth::u8}, Choice{"u16", Depth::u16}, Choice{"f16", Depth::f16},
+                            Choice{"f32", Depth::f32}};
+
+// "edge|corner"
+template <typename Choices>
+std::string alternatives(const Choices& choices) {
+  std::string list;
+  for (const auto& choice : choices) list += (list.empty() ? "" : "|") + std::string(choice.name);
+  return list;
+}
+
+template <typename Choices>
+auto chosen(const Choices& choices, const std::string& text) {
+  for (const auto& choice : choices)
+    if (text == choice.name) return choice.value;
+  refuse(text, alternatives(choices));
+}
+
+template <typename Choices, typename Enum>
+std::string name_in(const Choices& choices, Enum value) {
+  for (const auto& choice : choices)
+    if (choice.value == value) return choice.name;
+  return "";
+}
+
+void set_coloring(BakeOptions& o, const std::string& text) {
+  o.synth.coloring = chosen(colorings, text);
+  const bool corner = o.synth.coloring == Coloring::corner;
+  o.synth.colors = corner ? ColorCounts{0, 0, 2} : ColorCounts{2, 2, 0};
+  o.layout = corner ? LayoutKind::de_bruijn : LayoutKind::tile_index;
+}
+
+void set_colors(BakeOptions& o, const std::string& text) {
+  if (o.synth.coloring == Coloring::corner) {
+    o.synth.colors = {0, 0, static_cast<int>(whole(text, 1, 4))};
+  } else {
+    const Extent e = extent(text, 1, 8, "; H horizontal and V vertical colors as HxV");
+    o.synth.colors = {static_cast<int>(e.width), static_cast<int>(e.height), 0};
+  }
+}
+
+std::string get_colors(const BakeOptions& o) {
+  if (o.synth.coloring == Coloring::corner) return fmt::format("{}", o.synth.colors.corner);
+  return shown(o.synth.colors.horizontal, o.synth.colors.vertical);
+}
+
+void set_tile_size(BakeOptions& o, const std::string& text) {
+  o.fit_tile_size = text == "auto";
+  if (o.fit_tile_size) return;
+  const Extent e = extent(text, 4, 4096, ", or auto");
+  o.synth.tile_size = {static_cast<int>(e.width), static_cast<int>(e.height)};
+}
+
+std::string get_tile_size(const BakeOptions& o) {
+  return o.fit_tile_size ? "auto" : shown(o.synth.tile_size.width, o.synth.tile_size.height);
+}
+
+void set_flag(bool& flag, const std::string& text) {
+  if (text != "true" && text != "false") refuse(text, "true or false");
+  flag = text == "true";
+}
+
+void set_virtual_size(BakeOptions& o, const std::string& text) {
+  const Extent e = extent(text, 1, std::int64_t{1} << 31);
+  o.virtual_size = {e.width, e.height};
+}
+
+std::vector<BakeField> make_fields() {
+  using Type = BakeFieldType;
+  using O = BakeOptions;
+  using T = std::string;
+  return {
+      {"tile-size", Type::extent, "N|WxH|auto",
+       "side of a tile in texels, 4 to 4096; auto: whole periods of the sample near 128", set_tile_size,
+       get_tile_size},
+      {"coloring", Type::choice, alternatives(colorings), "what neighbouring tiles agree on", set_coloring,
+       [](const O& o) { return name_in(colorings, o.synth.coloring); }},
+      {"colors", Type::extent, "N|HxV",
+       "colors of horizontal and vertical edges, 1 to 8, or of corners, 1 to 4", set_colors, get_colors},
+      {"interior", Type::choice, alternatives(interiors),
+       "how the inside of a tile is made: its own window of the sample, or the patches of its edges alone",
+       [](O& o, const T& text) { o.synth.interior = chosen(interiors, text); },
+       [](const O& o) { return name_in(interiors, o.synth.interior); }},
+      {"guard", Type::integer, "N",
+       "texels either side of an edge that all tiles of its color share, 0 to an eighth of the tile",
+       [](O& o, const T& text) { o.synth.guard = static_cast<int>(whole(text, 0, 512)); },
+       [](const O& o) { return fmt::format("{}", o.synth.guard); }},
+      {"effort", Type::integer, "N", "time for quality, 0 (fast) to 9",
+       [](O& o, const T& text) { o.synth.effort = static_cast<int>(whole(text, 0, 9)); },
+       [](const O& o) { return fmt::format("{}", o.synth.effort); }},
+      {"seed", Type::integer, "N", "another number gives other tiles, 0 to 2^53 - 1",
+       [](O& o, const T& text) {
+         o.synth.seed = static_cast<std::uint64_t>(whole(text, 0, static_cast<std::int64_t>(largest_seed)));
+       },
+       [](const O& o) { return fmt::format("{}", o.synth.seed); }},
+      {"layout", Type::choice, alternatives(layouts), "how tiles lie in the texture",
+       [](O& o, const T& text) { o.layout = chosen(layouts, text); },
+       [](const O& o) { return name_in(layouts, o.layout); }},
+      {"corner-pack", Type::flag, "true|false",
+       "add a pack of the surroundings of tile corners (edge coloring)",
+       [](O& o, const T& text) { set_flag(o.corner_pack, text); },
+       [](const O& o) { return std::string(o.corner_pack ? "true" : "false"); }},
+      {"mips", Type::choice, alternatives(mip_modes),
+       "what is done to the border texels of coarser levels; none: level 0 only",
+       [](O& o, const T& text) { o.mips.mode = chosen(mip_modes, text); },
+       [](const O& o) { return name_in(mip_modes, o.mips.mode); }},
+      {"mapping", Type::choice, alternatives(mappings),
+       "how the tile of a cell is found: hash table, integer hash, or a stored map",
+       [](O& o, const T& text) { o.mapping = chosen(mappings, text); },
+       [](const O& o) { return name_in(mappings, o.mapping); }},
+      {"virtual-size", Type::extent, "N|WxH", "size of the virtual texture in tiles, 1 to 2^31",
+       set_virtual_size, [](const O& o) { return shown(o.virtual_size.width, o.virtual_size.height); }},
+      {"format", Type::choice, alternatives(formats),
+       "image files of the pack; as the depth asks for unless given",
+       [](O& o, const T& text) { o.format = chosen(formats, text); },
+       [](const O& o) { return o.format ? name_in(formats, *o.format) : ""; }},
+      {"depth", Type::choice, alternatives(depths), "of the stored channels; as in the sample unless given",
+       [](O& o, const T& text) { o.depth = chosen(depths, text); },
+       [](const O& o) { return o.depth ? name_in(depths, *o.depth) : ""; }},
+  };
+}
+
+} // namespace
+
+std::span<const BakeField> bake_fields() {
+  static const std::vector<BakeField> fields = make_fields();
+  return fields;
+}
+
+std::vector<std::string> bake_field_names() {
+  std::vector<std::string> names;
+  for (const BakeField& field : bake_fields()) names.push_back(field.name);
+  return names;
+}
+
+BakeOptions bake_options(std::span<const BakeSetting> settings) {
+  std::map<std::string, const BakeSetting*> last;
+  for (const BakeSetting& setting : settings) last[setting.field] = &setting;
+  BakeOptions options;
+  // Coloring comes first, for it changes the defaults of the others.
+  const auto apply = [&](const BakeField& field) {
+    const auto found = last.find(field.name);
+    if (found == last.end()) return;
+    const BakeSetting& setting = *found->second;
+    try {
+      field.set(options, setting.value);
+    } catch (const Error& error) {
+      throw Error(setting.blame, setting.where, error.what());
+    }
+  };
+  for (const BakeField& field : bake_fields()) apply(field);
+  return options;
+}
+
+std::vector<std::pair<std::string, std::string>> recorded_options(const BakeOptions& options) {
+  std::vector<std::pair<std::string, std::string>> list;
+  for (const BakeField& field : bake_fields())
+    if (std::string value = field.get(options); !value.empty() && field.name != "seed")
+      list.emplace_back(field.name, std::move(value));
+  return list;
+}
+
+} // namespace tilepack
