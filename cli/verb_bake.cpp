@@ -1,10 +1,25 @@
+#include "bake_report.h"
+#include "bake_samples.h"
 #include "jobs.h"
 #include "verb.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/error/nearest_name.h"
+#include "tilepack/pack/bake.h"
+#include "tilepack/pack/bake_fields.h"
+#include "tilepack/pack/pack_write.h"
+#include "tilepack/pack/preset.h"
 
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace tilepack::cli {
 namespace {
@@ -12,18 +27,149 @@ namespace {
 struct BakeArguments {
   std::string sample;
   std::string folder;
+  std::vector<std::string> maps;
+  std::string preset;
+  bool list_presets = false;
+  std::string encoding;
+  std::string depfile;
+  std::string report_format = "text";
   int jobs = 0;
+  std::map<std::string, std::string> fields; // bake field → what the command line says
 };
 
-int run_bake(const BakeArguments& arguments, Console&) {
+std::string listed_presets() {
+  std::string text;
+  for (const Preset& preset : built_in_presets()) {
+    text += fmt::format("{}\n  for   {}\n  cost  {}\n  sets ", preset.name, preset.purpose, preset.cost);
+    for (const BakeSetting& setting : preset.settings)
+      text += fmt::format(" --{} {}", setting.field, setting.value);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw Error(ErrorKind::cannot_read, file, "the preset can't be read");
+  return text.str();
+}
+
+// A built-in preset by its name, else a file.
+Preset preset_called(const std::string& name) {
+  std::vector<std::string> known;
+  for (Preset& preset : built_in_presets()) {
+    if (preset.name == name) return std::move(preset);
+    known.push_back(preset.name);
+  }
+  const std::filesystem::path file(name);
+  if (std::filesystem::is_regular_file(file)) return parsed_preset(text_of(name), file.stem().string(), name);
+  if (file.has_parent_path() || file.has_extension())
+    throw Error(ErrorKind::cannot_read, name, "there is no such preset file");
+  const std::string nearest = nearest_name(name, known);
+  throw Error(ErrorKind::usage, "--preset",
+              fmt::format("there is no preset '{}'{}; --list-presets shows them, and a FILE is taken too",
+                          name, nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+}
+
+BakeOptions options_from(const BakeArguments& arguments) {
+  std::vector<BakeSetting> settings;
+  if (!arguments.preset.empty()) settings = preset_called(arguments.preset).settings;
+  for (const auto& [field, value] : arguments.fields)
+    settings.push_back({field, value, "--" + field, ErrorKind::usage});
+  return bake_options(settings);
+}
+
+void write_depfile(const BakeArguments& arguments, const std::vector<SampleFile>& files) {
+  std::vector<std::string> inputs;
+  for (const SampleFile& file : files) inputs.push_back(file.file);
+  if (std::filesystem::is_regular_file(arguments.preset)) inputs.push_back(arguments.preset);
+  const std::string target = (std::filesystem::path(arguments.folder) / "pack.json").string();
+  std::ofstream stream(arguments.depfile, std::ios::binary);
+  stream << depfile_text(target, inputs);
+  stream.close();
+  if (!stream)
+    throw Error(ErrorKind::cannot_write, arguments.depfile, "the dependency file can't be written");
+}
+
+class Stopwatch {
+public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last, now)).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
+};
+
+int run_bake(const BakeArguments& arguments, Console& console) {
+  if (arguments.list_presets) {
+    console.print(listed_presets());
+    return 0;
+  }
+  if (arguments.sample.empty()) throw Error(ErrorKind::usage, "", "SAMPLE is required");
+  if (arguments.folder.empty()) throw Error(ErrorKind::usage, "", "--output is required");
   const JobLimit limit(arguments.jobs);
-  throw Error(ErrorKind::internal, arguments.sample, "baking is not there yet");
+  const BakeOptions options = options_from(arguments);
+  std::vector<SampleFile> files{{"color", Role::color, arguments.sample}};
+  for (const std::string& option : arguments.maps) files.push_back(parsed_map_option(option));
+  std::optional<Encoding> asked;
+  if (!arguments.encoding.empty()) asked = arguments.encoding == "srgb" ? Encoding::srgb : Encoding::linear;
+
+  Stopwatch watch;
+  check_pack_folder(arguments.folder); // before minutes are spent on what can't be stored
+  const Progress progress = console.progress();
+  const std::vector<SampleMap> samples = read_samples(files, asked);
+  const double read_seconds = watch.lap();
+  const Pack pack = bake(samples, options, progress);
+  const double bake_seconds = watch.lap();
+  write_pack(pack, arguments.folder, progress);
+  if (!arguments.depfile.empty()) write_depfile(arguments, files);
+  const double write_seconds = watch.lap();
+
+  const PackDescription made = described(pack);
+  console.print(arguments.report_format == "json" ? bake_report_json(made, arguments.folder)
+                                                  : bake_report_text(made, arguments.folder));
+  console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", read_seconds, bake_seconds,
+                           write_seconds));
+  return 0;
 }
 
 Action declare_bake(CLI::App& app) {
   auto arguments = std::make_shared<BakeArguments>();
-  app.add_option("SAMPLE", arguments->sample, "image to make tiles from")->required();
-  app.add_option("-o,--output", arguments->folder, "folder of the pack")->required()->type_name("DIR");
+  app.add_option("SAMPLE", arguments->sample, "image to make tiles from")->type_name("");
+  app.add_option("-o,--output", arguments->folder, "folder of the pack")->type_name("DIR");
+  app.add_option("--map", arguments->maps,
+                 "a further map of the material, in register with SAMPLE; may be repeated")
+      ->type_name("ROLE=FILE")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--preset", arguments->preset,
+                 "options from a built-in preset or a JSON file; flags override it")
+      ->type_name("NAME|FILE");
+  app.add_flag("--list-presets", arguments->list_presets, "show the built-in presets and end");
+  for (const BakeField& field : bake_fields()) {
+    const auto store = [arguments, name = field.name](const std::string& value) {
+      arguments->fields[name] = value;
+    };
+    if (field.type == BakeFieldType::flag)
+      app.add_flag_function(
+          fmt::format("--{0},!--no-{0}", field.name),
+          [store](std::int64_t count) { store(count > 0 ? "true" : "false"); }, field.help);
+    else
+      app.add_option_function<std::string>("--" + field.name, store, field.help)->type_name(field.value);
+  }
+  app.add_option("--encoding", arguments->encoding,
+                 "how color samples are encoded; as their file says unless given")
+      ->check(CLI::IsMember({"srgb", "linear"}))
+      ->type_name("srgb|linear");
+  app.add_option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
+      ->type_name("FILE");
+  app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->type_name("text|json");
   add_jobs_option(app, arguments->jobs);
   return [arguments](Console& console) { return run_bake(*arguments, console); };
 }
@@ -32,7 +178,9 @@ Action declare_bake(CLI::App& app) {
 
 Verb bake_verb() {
   return {"bake", "make a tile pack from a texture sample or a set of material maps",
-          "  tilepack bake gravel.png -o gravel.pack --tile-size 128 --colors 2\n", declare_bake};
+          "  tilepack bake gravel.png -o gravel.pack --tile-size 128 --colors 2\n"
+          "  tilepack bake rock.png -o rock.pack --map normal=rock_normal.png --preset terrain --seed 7\n",
+          declare_bake};
 }
 
 } // namespace tilepack::cli

@@ -71,7 +71,10 @@ constexpr std::array depths{Choice{"u8", Depth::u8}, Choice{"u16", Depth::u16}, 
 template <typename Choices>
 std::string alternatives(const Choices& choices) {
   std::string list;
-  for (const auto& choice : choices) list += (list.empty() ? "" : "|") + std::string(choice.name);
+  for (const auto& choice : choices) {
+    if (!list.empty()) list += '|';
+    list += choice.name;
+  }
   return list;
 }
 
@@ -203,7 +206,6 @@ BakeOptions bake_options(std::span<const BakeSetting> settings) {
   std::map<std::string, const BakeSetting*> last;
   for (const BakeSetting& setting : settings) last[setting.field] = &setting;
   BakeOptions options;
-  // Coloring comes first, for it changes the defaults of the others.
   const auto apply = [&](const BakeField& field) {
     const auto found = last.find(field.name);
     if (found == last.end()) return;

@@ -24,7 +24,10 @@ namespace {
 // The files of the pack that `folder` holds, pack.json last; none if it is empty or missing.
 std::vector<std::string> replaceable_files(const fs::path& folder) {
   std::error_code fault;
-  if (!fs::is_directory(folder, fault)) return {};
+  const fs::file_status status = fs::status(folder, fault);
+  if (!fs::exists(status)) return {};
+  if (!fs::is_directory(status))
+    throw Error(ErrorKind::cannot_write, folder.string(), "is no folder; name another one");
   if (fs::exists(folder / "pack.json", fault)) {
     try {
       std::vector<std::string> files = read_pack_description(folder).all_files();
@@ -90,6 +93,10 @@ Error named_as_final(const Error& error, const fs::path& staging, const fs::path
 }
 
 } // namespace
+
+void check_pack_folder(const fs::path& folder) {
+  replaceable_files(folder);
+}
 
 void write_pack(const Pack& pack, const fs::path& folder, const Progress& progress) {
   const std::vector<std::string> old_files = replaceable_files(folder);

@@ -16,4 +16,7 @@ namespace tilepack {
 /// the folder is as it was. Throws Error (cannot_write). The same pack gives the same bytes.
 void write_pack(const Pack& pack, const std::filesystem::path& folder, const Progress& progress = {});
 
+/// Throws what write_pack would throw about the folder itself, before any work is done for it.
+void check_pack_folder(const std::filesystem::path& folder);
+
 } // namespace tilepack

@@ -1,0 +1,73 @@
+#include "bake_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace tilepack::cli {
+namespace {
+
+std::string colors_text(const Pack& pack) {
+  if (coloring_of(pack.tiles) == Coloring::corner) return fmt::format("{} corner colors", pack.colors.corner);
+  return fmt::format("{} x {} edge colors", pack.colors.horizontal, pack.colors.vertical);
+}
+
+std::string escaped(const std::string& path) {
+  std::string text;
+  for (const char c : path) {
+    if (c == '$') text += '$';
+    if (c == ' ' || c == '\t' || c == '#' || c == ':') text += '\\';
+    text += c;
+  }
+  return text;
+}
+
+} // namespace
+
+std::string bake_report_text(const PackDescription& made, const std::string& folder) {
+  const Pack& pack = made.pack;
+  std::string text =
+      fmt::format("{}: {} tiles of {} x {} texels, {}, {} layout\n", folder, tile_count(pack.tiles),
+                  pack.tile_size.width, pack.tile_size.height, colors_text(pack), name_of(pack.layout.kind));
+  for (std::size_t m = 0; m < pack.maps.size(); ++m) {
+    const PackedMap& map = pack.maps[m];
+    const Size size = made.map_files[m].front().size;
+    text += fmt::format("  {:<9} {} x {} texels, {} levels, {} channels, {} {}, from {}\n", map.name,
+                        size.width, size.height, made.map_files[m].size(), map.channels, name_of(map.depth),
+                        name_of(map.encoding), made.map_files[m].front().file);
+  }
+  text += fmt::format("  {:<9} {}, {} x {} tiles\n", "mapping", name_of(pack.mapping.kind),
+                      pack.mapping.size.width, pack.mapping.size.height);
+  return text;
+}
+
+std::string bake_report_json(const PackDescription& made, const std::string& folder) {
+  const Pack& pack = made.pack;
+  nlohmann::ordered_json json;
+  json["pack"] = folder;
+  json["tiles"] = tile_count(pack.tiles);
+  json["tile_size"] = {pack.tile_size.width, pack.tile_size.height};
+  json["tile_levels"] = pack.tile_levels;
+  json["layout"] = name_of(pack.layout.kind);
+  json["mapping"] = name_of(pack.mapping.kind);
+  json["virtual_size"] = {pack.mapping.size.width, pack.mapping.size.height};
+  json["maps"] = nlohmann::ordered_json::array();
+  for (const PackedMap& map : pack.maps)
+    json["maps"].push_back({{"name", map.name},
+                            {"role", name_of(map.role)},
+                            {"encoding", name_of(map.encoding)},
+                            {"depth", name_of(map.depth)},
+                            {"channels", map.channels}});
+  json["files"] = made.all_files();
+  json["files"].push_back("pack.json");
+  return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs) {
+  std::string text = escaped(target) + ":";
+  for (const std::string& input : inputs) text += fmt::format(" \\\n  {}", escaped(input));
+  text += '\n';
+  for (const std::string& input : inputs) text += fmt::format("\n{}:\n", escaped(input));
+  return text;
+}
+
+} // namespace tilepack::cli

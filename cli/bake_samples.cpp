@@ -1,0 +1,47 @@
+#include "bake_samples.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/error/nearest_name.h"
+#include "tilepack/image/image_file.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+
+namespace tilepack::cli {
+
+SampleFile parsed_map_option(const std::string& option) {
+  const std::size_t equals = option.find('=');
+  const std::string label = option.substr(0, equals);
+  if (equals == std::string::npos || equals + 1 == option.size() || label.empty())
+    throw Error(ErrorKind::usage, "--map",
+                fmt::format("'{}' is not allowed; write ROLE=FILE or NAME:ROLE=FILE", option));
+  const std::size_t colon = label.find(':');
+  const std::string name = label.substr(0, colon);
+  const std::string role = colon == std::string::npos ? name : label.substr(colon + 1);
+  static constexpr std::array roles{Role::color, Role::normal, Role::roughness, Role::height, Role::data};
+  std::vector<std::string> known;
+  for (const Role r : roles) {
+    if (name_of(r) == role) return {name, r, option.substr(equals + 1)};
+    known.emplace_back(name_of(r));
+  }
+  const std::string nearest = nearest_name(role, known);
+  const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
+  throw Error(ErrorKind::usage, "--map",
+              fmt::format("'{}' is no role{} The roles are color, normal, roughness, height and data", role,
+                          hint.empty() ? "." : hint));
+}
+
+std::vector<SampleMap> read_samples(std::span<const SampleFile> files, std::optional<Encoding> asked) {
+  std::vector<SampleMap> maps(files.size());
+  tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
+    const SampleFile& f = files[i];
+    ImageFile read = read_image(f.file, f.role == Role::color ? asked : std::optional(Encoding::linear));
+    maps[i] = {f.name, f.role, read.encoding, read.depth, std::move(read.image)};
+  });
+  return maps;
+}
+
+} // namespace tilepack::cli
