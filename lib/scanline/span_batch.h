@@ -1,0 +1,43 @@
+#pragma once
+
+#include "tilepack/scanline/span_method.h"
+
+#include <span>
+#include <vector>
+
+namespace tilepack {
+
+/// Scanlines walked side by side. One recurrence is serial, so a vector register cannot hold its next pixels;
+/// it holds the same pixel number of many scanlines instead.
+constexpr int scanlines_side_by_side = 32;
+
+/// Offsets of up to 32 spans, pixel by pixel: entry n * 32 + lane is pixel n of span `lane`. Entries at or
+/// past a span's count are unspecified.
+template <class Real>
+struct SpanBatch {
+  std::vector<Real> u, v;
+
+  Real u_at(int lane, int n) const { return u[index(lane, n)]; }
+  Real v_at(int lane, int n) const { return v[index(lane, n)]; }
+  static std::size_t index(int lane, int n) {
+    return static_cast<std::size_t>(n) * scanlines_side_by_side + static_cast<std::size_t>(lane);
+  }
+};
+
+/// What may differ between processors.
+enum class BatchArithmetic {
+  repeatable, ///< one rounding an operation: bit by bit what fill_span gives, on every processor
+  fused, ///< fused multiply-add where the processor has it, and for SpanMethod::estimate in float its own
+         ///< reciprocal estimate with one Newton step. Vendors differ in both: for timing only.
+};
+
+/// fill_span for up to 32 spans at once, on the widest vectors the processor has (chosen at run time). The
+/// batch grows as needed and keeps its memory. Errors as fill_span; std::invalid_argument for over 32 spans.
+template <class Real>
+void fill_spans(std::span<const Span> spans, const SpanOptions& options, SpanBatch<Real>& batch,
+                BatchArithmetic arithmetic = BatchArithmetic::repeatable);
+
+/// The instruction set fill_spans runs on here, such as "AVX2": for reports of timings.
+std::string_view batch_target();
+
+} // namespace tilepack
