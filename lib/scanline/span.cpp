@@ -10,7 +10,7 @@ namespace tilepack {
 namespace {
 
 constexpr double steepest = 0x1p40;
-constexpr double farthest = 0x1p62;
+constexpr double farthest = 0x1p61;
 
 // c i + d rounded once, so its sign is that of the exact value.
 double depth_at(const SpanCoefficients& run, int i) {
@@ -33,12 +33,7 @@ double clamped(double value, double limit) {
 }
 
 TileCoordinate moved(TileCoordinate origin, double offset) {
-  const double held = clamped(offset, farthest);
-  const double whole = std::floor(held);
-  // The tile wraps round 2^64 rather than overflow; the virtual texture is periodic anyway.
-  origin.tile = static_cast<std::int64_t>(static_cast<std::uint64_t>(origin.tile) +
-                                          static_cast<std::uint64_t>(static_cast<std::int64_t>(whole)));
-  origin.fraction += held - whole;
+  origin.fraction += clamped(offset, farthest);
   return normalised(origin);
 }
 
@@ -88,7 +83,8 @@ Span make_span(const SpanCoefficients& given) {
   // D/(depth²), written as (a - u c)/depth.
   span.du = clamped(span.direction * (run.a1 - u * run.c) / depth, steepest);
   span.dv = clamped(span.direction * (run.a2 - v * run.c) / depth, steepest);
-  span.bend = std::abs(run.c) / depth;
+  // Only a single pixel can be closer than one pixel to the horizon, and it needs no bend.
+  span.bend = std::min(std::abs(run.c) / depth, 1.0);
   return span;
 }
 

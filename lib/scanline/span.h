@@ -36,13 +36,13 @@ struct Span {
   int count = 0;     ///< pixels in front of the horizon; 0: nothing to draw
   TileCoordinate u, v;
   double du = 0, dv = 0; ///< tiles a pixel at n = 0, in the direction of growing n; |du| <= 2^40
-  double bend = 0;       ///< 0 <= bend, bend * (count - 1) < 1 up to rounding
+  double bend = 0;       ///< 0..1; bend * (count - 1) < 1 up to rounding
 };
 
 /// Brings a run of pixels to that form, walked from its near end: reversed where c > 0. [Cou, section 2]
 ///
 /// Pixels at or behind the horizon are left out. Coefficients that are NaN or infinite give an empty span;
-/// starts beyond ±2^62 tiles and slopes beyond ±2^40 tiles a pixel, where one pixel covers any texture many
+/// starts beyond ±2^61 tiles and slopes beyond ±2^40 tiles a pixel, where one pixel covers any texture many
 /// times over, are clamped there. Throws std::invalid_argument for a count outside 0..max_span_pixels.
 Span make_span(const SpanCoefficients& run);
 

@@ -2,6 +2,7 @@
 
 #include "tilepack/scanline/span_method.h"
 
+#include <new>
 #include <span>
 #include <vector>
 
@@ -11,11 +12,25 @@ namespace tilepack {
 /// it holds the same pixel number of many scanlines instead.
 constexpr int scanlines_side_by_side = 32;
 
+/// Memory that begins on a cache line, so that no vector straddles two.
+template <class Real>
+struct LineAllocator {
+  using value_type = Real;
+  LineAllocator() = default;
+  template <class Other>
+  LineAllocator(const LineAllocator<Other>&) {}
+  Real* allocate(std::size_t n) {
+    return static_cast<Real*>(::operator new(n * sizeof(Real), std::align_val_t(64)));
+  }
+  void deallocate(Real* p, std::size_t) { ::operator delete(p, std::align_val_t(64)); }
+  bool operator==(const LineAllocator&) const = default;
+};
+
 /// Offsets of up to 32 spans, pixel by pixel: entry n * 32 + lane is pixel n of span `lane`. Entries at or
 /// past a span's count are unspecified.
 template <class Real>
 struct SpanBatch {
-  std::vector<Real> u, v;
+  std::vector<Real, LineAllocator<Real>> u, v;
 
   Real u_at(int lane, int n) const { return u[index(lane, n)]; }
   Real v_at(int lane, int n) const { return v[index(lane, n)]; }

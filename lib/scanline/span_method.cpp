@@ -2,7 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/error/nearest_name.h"
-#include "tilepack/scanline/series.h"
+#include "tilepack/sampler/filter.h"
 #include "tilepack/scanline/span_constants.h"
 
 #include <algorithm>
@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::array<std::string_view, 7> names = {"exact",          "euler1", "euler2",  "newton",
                                                    "newton-general", "affine", "estimate"};
+
+constexpr double ln2 = 0.69314718055994530942;
 
 bool steps_from_seeds(SpanMethod method) {
   return method != SpanMethod::exact && method != SpanMethod::estimate;
@@ -148,8 +150,8 @@ double method_bound(SpanMethod method, double distance, int steps) {
   case SpanMethod::exact:
   case SpanMethod::estimate:
     return 0;
-  case SpanMethod::euler1:
-    return std::isinf(distance) ? 0 : repeatable_ln(1 + m / (distance + 1));
+  case SpanMethod::euler1: // by exact_log2, so that an interval chosen from it is the same everywhere
+    return std::isinf(distance) ? 0 : ln2 * exact_log2(1 + m / (distance + 1));
   case SpanMethod::euler2:
     return 4 * m / ((2 * distance + 1) * (2 * (distance + m) + 1));
   case SpanMethod::newton:
