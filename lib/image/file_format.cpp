@@ -100,6 +100,18 @@ std::uint32_t crc32(std::uint32_t crc, std::span<const unsigned char> bytes) {
   return crc;
 }
 
+// Some decoders take memory for all an image's header promises before they look at the rest, so a promise
+// beyond what the format can deliver is refused first. Deflate makes at most 1032 bytes of one.
+void check_png_promise(const FileBytes& file) {
+  std::array<unsigned char, 10> header{}; // width, height, bits per sample, color type
+  file.read(png_signature.size() + 8, header);
+  constexpr std::array<std::uint64_t, 7> samples = {1, 0, 3, 1, 2, 0, 4};
+  const std::uint64_t width = big_endian(std::span(header).first(4));
+  const std::uint64_t height = big_endian(std::span(header).subspan(4, 4));
+  const std::uint64_t row = (width * header[8] * samples[std::min<std::size_t>(header[9], 6)] + 7) / 8 + 1;
+  if (height > file.size() * 1032 / row + 1) file.truncated();
+}
+
 void check_png(const FileBytes& file) {
   std::uint64_t offset = png_signature.size();
   std::vector<unsigned char> block(1 << 16);
@@ -110,6 +122,7 @@ void check_png(const FileBytes& file) {
     const std::string type(head.begin() + 4, head.end());
     if (first && type != "IHDR") file.damaged("it does not begin with a header chunk");
     if (!file.holds(offset + 8, length + 4)) file.truncated();
+    if (first) check_png_promise(file);
 
     std::uint32_t crc = crc32(0xFFFFFFFFu, std::span(head).subspan(4));
     for (std::uint64_t done = 0; done < length;) {
@@ -164,6 +177,10 @@ private:
   std::size_t position = 0;
 };
 
+bool is_frame_header(unsigned char marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
 void check_jpeg(const FileBytes& file) {
   ByteStream bytes(file, 2); // past the start marker
   bool in_scan = false;
@@ -181,7 +198,17 @@ void check_jpeg(const FileBytes& file) {
     const std::uint64_t high = bytes.next();
     const std::uint64_t length = high << 8 | bytes.next();
     if (length < 2) file.damaged("a segment is shorter than its length field");
-    bytes.skip(length - 2);
+    std::uint64_t left = length - 2;
+    if (is_frame_header(byte) && left >= 5) {
+      std::array<unsigned char, 5> frame{}; // bits, height, width
+      for (unsigned char& b : frame) b = bytes.next();
+      left -= frame.size();
+      const std::uint64_t texels =
+          big_endian(std::span(frame).subspan(1, 2)) * big_endian(std::span(frame).subspan(3));
+      // The mean of a block of 8 x 8 texels takes a bit at least; see check_png_promise.
+      if (texels / 512 > file.size()) file.truncated();
+    }
+    bytes.skip(left);
   }
 }
 

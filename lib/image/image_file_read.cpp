@@ -20,8 +20,10 @@ namespace {
 
 // A band of decoded rows is held beside the image. This many bytes keep the decoder's threads busy.
 constexpr std::size_t band_bytes = std::size_t{8} << 20;
-// Tiles are decoded in whole rows of tiles; one row of tiles of the widest honest image stays below this.
-constexpr std::size_t max_band_bytes = std::size_t{1} << 30;
+// A strip beyond this is read row by row, in smaller bands.
+constexpr std::size_t max_strip_bytes = std::size_t{64} << 20;
+// Tiles can only be decoded in whole rows of tiles. 256 rows of 65536 RGBA floats are as much.
+constexpr std::size_t max_band_bytes = std::size_t{256} << 20;
 
 /// An open file and what is known of it.
 struct Source {
@@ -147,21 +149,24 @@ void check_finite(const Source& source, const std::vector<float>& values, std::s
 
 int rows_per_band(const Source& source, std::size_t row_bytes) {
   const OIIO::ImageSpec& spec = source.spec;
+  const bool tiled = spec.tile_width > 0;
   // Compressed files are decoded in strips; a band of whole strips decodes none twice.
   const int strip =
-      std::clamp(spec.tile_width > 0 ? spec.tile_height : spec.get_int_attribute("tiff:RowsPerStrip", 32), 1,
-                 spec.height);
+      std::clamp(tiled ? spec.tile_height : spec.get_int_attribute("tiff:RowsPerStrip", 32), 1, spec.height);
   const std::size_t strip_bytes = row_bytes * static_cast<std::size_t>(strip);
-  const std::size_t tile_bytes = static_cast<std::size_t>(std::max(spec.tile_width, 0)) *
-                                 static_cast<std::size_t>(std::max(spec.tile_height, 0)) *
-                                 spec.pixel_bytes(true);
-  if (spec.tile_width > 0 && std::max(strip_bytes, tile_bytes) > max_band_bytes)
-    throw Error(ErrorKind::invalid_content, source.name,
-                fmt::format("is stored in tiles of {} x {}; {} MiB for a row of tiles is the limit",
-                            spec.tile_width, spec.tile_height, max_band_bytes >> 20));
-  const std::size_t strips = std::max<std::size_t>(1, band_bytes / strip_bytes);
-  return static_cast<int>(
-      std::min<std::size_t>(static_cast<std::size_t>(spec.height), strips * static_cast<std::size_t>(strip)));
+  if (tiled) {
+    const std::size_t tile_bytes = static_cast<std::size_t>(spec.tile_width) *
+                                   static_cast<std::size_t>(spec.tile_height) * spec.pixel_bytes();
+    if (std::max(strip_bytes, tile_bytes) > max_band_bytes)
+      throw Error(ErrorKind::invalid_content, source.name,
+                  fmt::format("is stored in tiles of {} x {}; a row of tiles may take {} MiB: store it in "
+                              "smaller tiles",
+                              spec.tile_width, spec.tile_height, max_band_bytes >> 20));
+  }
+  std::size_t rows = std::max<std::size_t>(1, band_bytes / row_bytes);
+  if (tiled || strip_bytes <= max_strip_bytes)
+    rows = std::max<std::size_t>(1, band_bytes / strip_bytes) * static_cast<std::size_t>(strip);
+  return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(spec.height), rows));
 }
 
 Image decode(Source& source) {

@@ -18,6 +18,8 @@ namespace tilepack {
 namespace {
 
 /// Lets OpenImageIO write into a staged file through a buffer, since libpng hands over 8 kB at a time.
+///
+/// It never reports a failure: libpng would print about it. The staged file remembers it, and is asked.
 class StagedProxy final : public OIIO::Filesystem::IOProxy {
 public:
   StagedProxy(const std::string& name, StagedFile& staged) : IOProxy(name, Write), file(staged) {}
@@ -34,12 +36,12 @@ public:
     const auto* from = static_cast<const std::byte*>(bytes);
     buffer.insert(buffer.end(), from, from + count);
     m_pos += static_cast<int64_t>(count);
-    return ok ? count : 0;
+    return count;
   }
   size_t pwrite(const void* bytes, size_t count, int64_t offset) override {
     flush_buffer();
-    ok = file.write(static_cast<std::uint64_t>(offset), {static_cast<const std::byte*>(bytes), count}) && ok;
-    return ok ? count : 0;
+    file.write(static_cast<std::uint64_t>(offset), {static_cast<const std::byte*>(bytes), count});
+    return count;
   }
   size_t size() const override {
     return static_cast<size_t>(std::max<std::uint64_t>(file.size(), static_cast<std::uint64_t>(m_pos)));
@@ -49,14 +51,13 @@ public:
 private:
   void flush_buffer() {
     if (buffer.empty()) return;
-    ok = file.write(static_cast<std::uint64_t>(m_pos) - buffer.size(), buffer) && ok;
+    file.write(static_cast<std::uint64_t>(m_pos) - buffer.size(), buffer);
     buffer.clear();
   }
 
   static constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
   StagedFile& file;
   std::vector<std::byte> buffer;
-  bool ok = true;
 };
 
 bool is_integer(Depth depth) {
@@ -119,6 +120,23 @@ struct ImageWriter::State {
       : name(path.string()), size(image_size), channels(channel_count), depth(stored_depth), file(path),
         proxy(name, file) {}
 
+  ~State() { abandon(); }
+
+  // Closing a PNG before its first block of texels left the encoder makes libpng print an error. So
+  // unfinished images get rows that do not compress until a block is out, or all their rows.
+  void abandon() {
+    if (!open || !is_integer(depth)) return;
+    std::vector<std::uint16_t> row(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(channels));
+    std::uint32_t noise = 1;
+    const std::int64_t start = proxy.tell();
+    for (; rows_written < size.height && proxy.tell() == start; ++rows_written) {
+      for (std::uint16_t& v : row)
+        v = static_cast<std::uint16_t>((noise = noise * 1664525u + 1013904223u) >> 16);
+      output->write_scanlines(rows_written, rows_written + 1, 0, stored_type(depth), row.data());
+    }
+    output->close();
+  }
+
   [[noreturn]] void fail() {
     file.check(); // the system's reason, if it has one
     const std::string reason = output->geterror();
@@ -133,6 +151,7 @@ struct ImageWriter::State {
   StagedProxy proxy;
   std::unique_ptr<OIIO::ImageOutput> output; // declared last: on destruction it may still write to the proxy
   int rows_written = 0;
+  bool open = false;
 };
 
 const char* extension_for(Depth depth) {
@@ -158,6 +177,7 @@ ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int chann
   if (!state->output) throw Error(ErrorKind::internal, state->name, OIIO::geterror());
   state->output->set_ioproxy(&state->proxy);
   if (!state->output->open(state->name, spec_of(size, channels, depth, encoding))) state->fail();
+  state->open = true;
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -181,6 +201,7 @@ void ImageWriter::write(const Image& band) {
 void ImageWriter::finish() {
   State& s = *state;
   if (s.rows_written != s.size.height) throw std::logic_error("finish() before the last row was written");
+  s.open = false;
   if (!s.output->close()) s.fail();
   s.proxy.close();
   s.file.commit();
