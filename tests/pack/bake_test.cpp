@@ -1,0 +1,129 @@
+#include "noise_pack.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/pack/bake.h"
+#include "tilepack/pack/pack_json.h"
+
+#include <tbb/global_control.h>
+
+#include <catch2/catch.hpp>
+
+using namespace tilepack;
+
+namespace {
+
+SampleMap sample(const std::string& name, Role role, Depth depth, int channels, int side = 64) {
+  const Encoding encoding =
+      role == Role::color && depth != Depth::f16 && depth != Depth::f32 ? Encoding::srgb : Encoding::linear;
+  return {name, role, encoding, depth, quantised(test::noise(side, side, channels, 5), depth)};
+}
+
+BakeOptions small_options() {
+  BakeOptions options;
+  options.synth.tile_size = {16, 16};
+  options.synth.effort = 0;
+  options.virtual_size = {8, 8};
+  return options;
+}
+
+ErrorKind fault(const std::vector<SampleMap>& samples, const BakeOptions& options) {
+  try {
+    bake(samples, options);
+  } catch (const Error& error) {
+    return error.kind();
+  }
+  return ErrorKind::internal;
+}
+
+} // namespace
+
+TEST_CASE("a baked pack is whole", "[pack]") {
+  const std::vector<SampleMap> samples{sample("color", Role::color, Depth::u8, 3),
+                                       sample("height", Role::height, Depth::u16, 1)};
+  for (const MappingKind mapping : {MappingKind::permutation, MappingKind::mix, MappingKind::index}) {
+    BakeOptions options = small_options();
+    options.mapping = mapping;
+    options.synth.colors = {3, 2, 0};
+    const Pack pack = bake(samples, options);
+    CHECK(tile_count(pack.tiles) == 36);
+    CHECK(pack.layout.columns == 4);
+    CHECK(pack.layout.rows == 9);
+    CHECK(pack.tile_levels == 5);
+    REQUIRE(pack.maps.size() == 2);
+    for (const PackedMap& map : pack.maps) {
+      REQUIRE(map.levels.size() == 5);
+      CHECK(map.levels[4].size() == Size{4, 9});
+      for (const Image& level : map.levels) CHECK(quantised(level, map.depth) == level);
+    }
+    // What was baked is what can be read.
+    CHECK_NOTHROW(parsed_pack_json(pack_json(described(pack)), "pack.json"));
+  }
+}
+
+TEST_CASE("threads do not change a pack, the seed does", "[pack]") {
+  const std::vector<SampleMap> samples{sample("color", Role::color, Depth::u8, 3)};
+  BakeOptions options = small_options();
+  const Pack many = bake(samples, options);
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    CHECK(bake(samples, options).maps[0].levels == many.maps[0].levels);
+  }
+  options.synth.seed = 1;
+  CHECK(bake(samples, options).maps[0].levels != many.maps[0].levels);
+}
+
+TEST_CASE("depth and format decide how maps are stored", "[pack]") {
+  struct Case {
+    Depth read;
+    std::optional<FileFormat> format;
+    std::optional<Depth> depth;
+    Depth stored;
+    Encoding color;
+  };
+  const Case cases[] = {
+      {Depth::u8, {}, {}, Depth::u8, Encoding::srgb},
+      {Depth::u16, {}, {}, Depth::u16, Encoding::srgb},
+      {Depth::f16, {}, {}, Depth::f16, Encoding::linear},
+      {Depth::u8, FileFormat::exr, {}, Depth::f16, Encoding::linear},
+      {Depth::f32, FileFormat::png, {}, Depth::u16, Encoding::srgb},
+      {Depth::u8, {}, Depth::f32, Depth::f32, Encoding::linear},
+      {Depth::u16, FileFormat::png, Depth::u8, Depth::u8, Encoding::srgb},
+  };
+  for (const Case& c : cases) {
+    BakeOptions options = small_options();
+    options.format = c.format;
+    options.depth = c.depth;
+    const Pack pack = bake(
+        std::vector{sample("color", Role::color, c.read, 3), sample("n", Role::normal, c.read, 3)}, options);
+    CHECK(pack.maps[0].depth == c.stored);
+    CHECK(pack.maps[0].encoding == c.color);
+    CHECK(pack.maps[1].encoding == Encoding::linear);
+    // Texels are copied, so each is one of the sample's after the change of encoding.
+    CHECK(quantised(pack.maps[0].levels[0], c.stored) == pack.maps[0].levels[0]);
+  }
+}
+
+TEST_CASE("samples and options that can't be are refused", "[pack]") {
+  const SampleMap color = sample("color", Role::color, Depth::u8, 3);
+  BakeOptions options = small_options();
+  CHECK(fault({}, options) == ErrorKind::usage);
+  CHECK(fault({color, sample("normal", Role::normal, Depth::u8, 3, 48)}, options) ==
+        ErrorKind::invalid_content);
+  CHECK(fault({color, color}, options) == ErrorKind::usage);
+  CHECK(fault({sample("../x", Role::color, Depth::u8, 3)}, options) == ErrorKind::usage);
+  options.layout = LayoutKind::de_bruijn;
+  CHECK(fault({color}, options) == ErrorKind::usage);
+  options = small_options();
+  options.format = FileFormat::png;
+  options.depth = Depth::f16;
+  CHECK(fault({color}, options) == ErrorKind::usage);
+  options = small_options();
+  options.synth.tile_size = {128, 128};
+  CHECK(fault({color}, options) == ErrorKind::invalid_content);
+  options.synth.tile_size = {4096, 4096};
+  options.synth.colors = {8, 8, 0};
+  CHECK(fault({color}, options) == ErrorKind::usage);
+  options = small_options();
+  options.virtual_size = {5000, 5000};
+  CHECK(fault({color}, options) == ErrorKind::usage);
+}

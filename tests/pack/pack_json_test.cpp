@@ -1,0 +1,162 @@
+#include "noise_pack.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/pack/pack_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+using namespace tilepack;
+using nlohmann::json;
+
+namespace {
+
+const MappingKind all_mappings[] = {MappingKind::permutation, MappingKind::mix, MappingKind::index};
+
+bool accepted(const json& changed) {
+  try {
+    parsed_pack_json(changed.dump(), "pack.json");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::invalid_content);
+    return false;
+  }
+  return true;
+}
+
+// Every value of a document, by its JSON pointer.
+std::vector<json::json_pointer> places(const json& document) {
+  std::vector<json::json_pointer> list;
+  const json flat = document.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    json::json_pointer p(pointer);
+    for (; !p.empty(); p.pop_back()) list.push_back(p);
+  }
+  std::sort(list.begin(), list.end(),
+            [](const auto& a, const auto& b) { return a.to_string() < b.to_string(); });
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+// Where any text is as good as another.
+bool is_free_text(const std::string& place) {
+  return place.rfind("/generator/options/", 0) == 0 || place == "/generator/name" ||
+         place == "/generator/version";
+}
+
+} // namespace
+
+TEST_CASE("text and description are two forms of one thing", "[pack]") {
+  for (const MappingKind mapping : all_mappings) {
+    const PackDescription first = described(test::noise_pack(mapping));
+    const std::string text = pack_json(first);
+    const PackDescription second = parsed_pack_json(text, "pack.json");
+    CHECK(pack_json(second) == text);
+    CHECK(second.all_files() == first.all_files());
+    CHECK(second.pack.tiles == first.pack.tiles);
+    CHECK(second.pack.layout == first.pack.layout);
+    CHECK(second.pack.mapping.table == first.pack.mapping.table);
+    CHECK(second.pack.mapping.size == first.pack.mapping.size);
+    CHECK(second.pack.mapping.seed == first.pack.mapping.seed);
+    CHECK(text.back() == '\n');
+  }
+}
+
+TEST_CASE("files are named after maps and levels", "[pack]") {
+  const PackDescription d = described(test::noise_pack(MappingKind::index, Depth::f16));
+  CHECK(d.all_files() == std::vector<std::string>{"color_0.png", "color_1.png", "color_2.png", "height_0.exr",
+                                                  "height_1.exr", "height_2.exr", "index.png"});
+  CHECK(d.map_files[0][1].size == Size{16, 8});
+}
+
+TEST_CASE("every field is needed, and none may be added", "[pack]") {
+  for (const MappingKind mapping : all_mappings) {
+    const json good = json::parse(pack_json(described(test::noise_pack(mapping))));
+    REQUIRE(accepted(good));
+    for (const auto& place : places(good)) {
+      const std::string name = place.to_string();
+      INFO(name);
+      if (name.rfind("/generator/options/", 0) == 0) continue;
+      json without = good;
+      auto& parent = without[place.parent_pointer()];
+      if (parent.is_object())
+        parent.erase(place.back());
+      else
+        parent.erase(static_cast<std::size_t>(std::stoi(place.back())));
+      // A shorter table is a table still, and one map fewer a pack.
+      const bool is_optional =
+          name.rfind("/mapping/table/", 0) == 0 || name == "/maps/0" || name == "/maps/1";
+      if (!is_optional) CHECK_FALSE(accepted(without));
+      if (good[place].is_object() && name != "/generator/options") {
+        json with = good;
+        with[place]["extra"] = 1;
+        CHECK_FALSE(accepted(with));
+      }
+    }
+    json with = good;
+    with["extra"] = 1;
+    CHECK_FALSE(accepted(with));
+  }
+}
+
+TEST_CASE("values of another type or far out of range are refused at every place", "[pack]") {
+  const json wrong[] = {
+      nullptr,       true,          -1, 1.5, 1e300, 18446744073709551615u, "", "no\\such word", "../up.png",
+      json::array(), json::object()};
+  for (const MappingKind mapping : all_mappings) {
+    const json good = json::parse(pack_json(described(test::noise_pack(mapping))));
+    for (const auto& place : places(good)) {
+      const std::string name = place.to_string();
+      for (const json& value : wrong) {
+        INFO(name << " = " << value);
+        if (value.is_string() && is_free_text(name)) continue;
+        if (value == json::object() && name == "/generator/options") continue;
+        json changed = good;
+        changed[place] = value;
+        CHECK_FALSE(accepted(changed));
+      }
+    }
+  }
+}
+
+TEST_CASE("fields that contradict each other are refused", "[pack]") {
+  const json good = json::parse(pack_json(described(test::noise_pack())));
+  const auto changed = [&](const char* place, const json& value) {
+    json other = good;
+    other[json::json_pointer(place)] = value;
+    return accepted(other);
+  };
+  REQUIRE(changed("/tile_size", good["tile_size"]));
+  CHECK_FALSE(changed("/tile_size", {4, 4}));                            // levels have other sizes
+  CHECK_FALSE(changed("/coloring", "corner"));                           // tiles have edges
+  CHECK_FALSE(changed("/colors", {{"horizontal", 3}, {"vertical", 2}})); // the set is no longer complete
+  CHECK_FALSE(changed("/tiles/0/north", 1));                             // two tiles alike
+  CHECK_FALSE(changed("/tiles/1/id", 2));                                // ids count up
+  CHECK_FALSE(changed("/layout/cells/3/tile", 4));                       // a tile twice
+  CHECK_FALSE(changed("/layout/columns", 3));                            // a cell outside
+  CHECK_FALSE(changed("/layout/columns", 5));                            // images of another width
+  CHECK_FALSE(changed("/maps/0/levels/1/file", "color_0.png"));          // a file twice
+  CHECK_FALSE(changed("/maps/0/levels/1/file", "pack.json"));
+  CHECK_FALSE(changed("/maps/1/name", "color")); // a name twice
+  CHECK_FALSE(changed("/maps/0/levels/0/size", {16, 32}));
+  CHECK_FALSE(changed("/mips/tile_levels", 2));
+  CHECK_FALSE(changed("/mips/filter", "none"));
+  CHECK_FALSE(changed("/mapping/table/0", good["mapping"]["table"].size())); // beyond its own length
+  CHECK_FALSE(changed("/format", "tilepac"));
+  CHECK_FALSE(changed("/version", 2));
+}
+
+TEST_CASE("sizes that multiply past the limits are refused before any memory is taken", "[pack]") {
+  json huge = json::parse(pack_json(described(test::noise_pack())));
+  huge["tile_size"] = {16384, 16384};
+  huge["mips"]["tile_levels"] = 1;
+  for (auto& map : huge["maps"]) map["levels"] = {{{"file", map["name"]}, {"size", {65536, 65536}}}};
+  CHECK_FALSE(accepted(huge));
+  huge["layout"]["columns"] = huge["layout"]["rows"] = 4096;
+  for (auto& map : huge["maps"]) map["levels"][0]["size"] = {67108864, 67108864};
+  CHECK_FALSE(accepted(huge));
+  json cells = json::parse(pack_json(described(test::noise_pack(MappingKind::index))));
+  cells["mapping"]["virtual_size"] = {65536, 65536};
+  CHECK_FALSE(accepted(cells));
+}

@@ -1,0 +1,186 @@
+#include "noise_pack.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/image/image_file.h"
+#include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/pack_write.h"
+
+#include <tbb/global_control.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+using namespace tilepack;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Everything below a folder: name → bytes.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    all[fs::relative(entry.path(), folder).string()] = entry.is_regular_file() ? bytes_of(entry.path()) : "";
+  return all;
+}
+
+void put(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+template <typename Function>
+std::string refusal(Function&& function, ErrorKind kind) {
+  try {
+    function();
+  } catch (const Error& error) {
+    CHECK(error.kind() == kind);
+    return error.what();
+  }
+  FAIL_CHECK("no error was thrown");
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("a pack comes back as it was written, and is written again to the same bytes", "[pack]") {
+  const test::TemporaryFolder temporary;
+  for (const MappingKind mapping : {MappingKind::permutation, MappingKind::mix, MappingKind::index})
+    for (const Depth depth : {Depth::u8, Depth::u16, Depth::f16, Depth::f32}) {
+      const Pack pack = test::noise_pack(mapping, depth);
+      write_pack(pack, temporary / "a");
+      const Pack again = read_pack(temporary / "a");
+      for (std::size_t m = 0; m < 2; ++m) CHECK(again.maps[m].levels == pack.maps[m].levels);
+      CHECK(again.mapping.ids == pack.mapping.ids);
+      CHECK(again.mip_mode == pack.mip_mode);
+      write_pack(again, temporary / "b");
+      CHECK(contents(temporary / "a") == contents(temporary / "b"));
+      CHECK(read_pack(temporary / "a" / "pack.json").tile_size == pack.tile_size);
+    }
+}
+
+TEST_CASE("the number of threads leaves no trace", "[pack]") {
+  const test::TemporaryFolder temporary;
+  const Pack pack = test::noise_pack();
+  write_pack(pack, temporary / "many");
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  write_pack(pack, temporary / "one");
+  CHECK(contents(temporary / "many") == contents(temporary / "one"));
+}
+
+TEST_CASE("an older pack is replaced, and files of others stay", "[pack]") {
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary / "p";
+  write_pack(test::noise_pack(MappingKind::index, Depth::f16), folder);
+  put(folder / "notes.txt", "mine");
+  fs::create_directory(folder / "drafts");
+  write_pack(test::noise_pack(MappingKind::mix, Depth::u16, 2), folder);
+  write_pack(test::noise_pack(MappingKind::mix, Depth::u16, 2), temporary / "fresh");
+  auto expected = contents(temporary / "fresh");
+  expected["notes.txt"] = "mine";
+  expected["drafts"] = "";
+  CHECK(contents(folder) == expected);
+}
+
+TEST_CASE("folders with anything else in them are refused and left alone", "[pack]") {
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary / "p";
+  fs::create_directory(folder);
+  const Pack pack = test::noise_pack();
+  const auto write = [&] { write_pack(pack, folder); };
+  SECTION("other files") {
+    put(folder / "holiday.png", "mine");
+    CHECK_THAT(refusal(write, ErrorKind::cannot_write), Contains("holiday.png"));
+  }
+  SECTION("another pack.json") {
+    put(folder / "pack.json", "{\"name\": \"an npm thing\"}");
+    CHECK_THAT(refusal(write, ErrorKind::cannot_write), Contains("no readable tile pack"));
+  }
+  SECTION("a file in the way of a new one") {
+    write_pack(test::noise_pack(MappingKind::mix, Depth::f16), folder);
+    put(folder / "height_1.png", "mine");
+    CHECK_THAT(refusal(write, ErrorKind::cannot_write), Contains("height_1.png"));
+  }
+  SECTION("a folder in the way of a new file") {
+    write_pack(test::noise_pack(MappingKind::mix, Depth::f16), folder);
+    fs::create_directory(folder / "height_2.png");
+    CHECK_THAT(refusal(write, ErrorKind::cannot_write), Contains("height_2.png"));
+  }
+  const auto before = contents(folder);
+  CHECK_THROWS_AS(write(), Error);
+  CHECK(contents(folder) == before);
+}
+
+TEST_CASE("a file where the folder should be is refused", "[pack]") {
+  const test::TemporaryFolder temporary;
+  put(temporary / "p", "mine");
+  CHECK_THAT(refusal([&] { write_pack(test::noise_pack(), temporary / "p"); }, ErrorKind::cannot_write),
+             Contains("is no folder"));
+  refusal([&] { write_pack(test::noise_pack(), temporary / "p" / "q"); }, ErrorKind::cannot_write);
+  CHECK(bytes_of(temporary / "p") == "mine");
+}
+
+TEST_CASE("a cancelled or failing write leaves nothing", "[pack]") {
+  const test::TemporaryFolder temporary;
+  struct Cancelled {};
+  const Progress cancel = [](std::string_view, double done) {
+    if (done > 0.1) throw Cancelled();
+  };
+  CHECK_THROWS_AS(write_pack(test::noise_pack(), temporary / "a" / "b" / "c", cancel), Cancelled);
+  CHECK(contents(temporary.path()).empty());
+  write_pack(test::noise_pack(), temporary / "p");
+  const auto before = contents(temporary.path());
+  CHECK_THROWS_AS(write_pack(test::noise_pack(MappingKind::mix), temporary / "p", cancel), Cancelled);
+  CHECK(contents(temporary.path()) == before);
+}
+
+TEST_CASE("what a killed process left behind is no obstacle", "[pack]") {
+  const test::TemporaryFolder temporary;
+  fs::create_directories(temporary / "p" / ".tilepack-staging" / "retired");
+  put(temporary / "p" / ".tilepack-staging" / "color_0.png", "half");
+  write_pack(test::noise_pack(), temporary / "p");
+  CHECK_FALSE(fs::exists(temporary / "p" / ".tilepack-staging"));
+}
+
+TEST_CASE("files that do not match pack.json are refused", "[pack]") {
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary / "p";
+  write_pack(test::noise_pack(MappingKind::index), folder);
+  const auto read = [&] { read_pack(folder); };
+  SECTION("missing") {
+    fs::remove(folder / "color_1.png");
+    CHECK_THAT(refusal(read, ErrorKind::cannot_read), Contains("color_1.png"));
+  }
+  SECTION("another size") {
+    write_image(folder / "color_1.png", test::noise(16, 9, 3, 1), Depth::u8, Encoding::srgb);
+    CHECK_THAT(refusal(read, ErrorKind::invalid_content), Contains("16 x 9 texels") && Contains("16 x 8"));
+  }
+  SECTION("other channels") {
+    write_image(folder / "color_1.png", test::noise(16, 8, 4, 1), Depth::u8, Encoding::srgb);
+    CHECK_THAT(refusal(read, ErrorKind::invalid_content), Contains("4 channels"));
+  }
+  SECTION("another depth") {
+    write_image(folder / "color_1.png", test::noise(16, 8, 3, 1), Depth::u16, Encoding::srgb);
+    CHECK_THAT(refusal(read, ErrorKind::invalid_content), Contains("depth u16"));
+  }
+  SECTION("a tile that is not there") {
+    Image index(6, 5, 1, 0.0f);
+    index.texel(2, 3)[0] = 16.0f / 255.0f;
+    write_image(folder / "index.png", index, Depth::u8, Encoding::linear);
+    CHECK_THAT(refusal(read, ErrorKind::invalid_content), Contains("cell (2, 3) holds tile 16"));
+  }
+  SECTION("truncated") {
+    fs::resize_file(folder / "color_0.png", 100);
+    refusal(read, ErrorKind::cannot_read);
+  }
+  SECTION("no folder") {
+    fs::remove_all(folder);
+    refusal(read, ErrorKind::cannot_read);
+  }
+}
