@@ -27,6 +27,7 @@ struct Verb {
 };
 
 Verb bake_verb();
+Verb render_verb();
 
 /// All verbs, in the order of the help listing.
 std::span<const Verb> verb_table();

@@ -7,6 +7,7 @@ namespace tilepack::cli {
 std::span<const Verb> verb_table() {
   static const std::array table{
       bake_verb(),
+      render_verb(),
   };
   return table;
 }

@@ -1,0 +1,180 @@
+#include "jobs.h"
+#include "verb.h"
+
+#include "tilepack/image/image_file.h"
+#include "tilepack/pack/pack_read.h"
+#include "tilepack/sampler/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tilepack::cli {
+namespace {
+
+constexpr int default_tiles = 8;                     // a side of the window, unless the texture is smaller
+constexpr std::size_t band_values = 8 * 1024 * 1024; // floats rendered between two writes
+
+struct RenderArguments {
+  std::string pack;
+  std::string output;
+  std::string map;
+  std::string rect;
+  std::string filter = "trilinear";
+  std::string encoding;
+  int level = 0;
+  double scale = 1;
+  int jobs = 0;
+};
+
+int map_number(const Pack& pack, const std::string& name) {
+  if (name.empty()) return 0;
+  std::string names;
+  for (std::size_t i = 0; i < pack.maps.size(); ++i) {
+    if (pack.maps[i].name == name) return static_cast<int>(i);
+    names += (i == 0 ? "" : ", ") + pack.maps[i].name;
+  }
+  throw Error(ErrorKind::usage, "--map", fmt::format("the pack has no map '{}'; it has {}", name, names));
+}
+
+Filter filter_of(const std::string& name) {
+  if (const auto filter = filter_named(name)) return *filter;
+  throw Error(ErrorKind::usage, "--filter",
+              fmt::format("'{}' is no filter; there are nearest, bilinear and trilinear", name));
+}
+
+// X,Y,W,H, whole numbers, as far as a window can reach.
+VirtualRect parsed_rect(const std::string& text) {
+  constexpr std::int64_t farthest = std::int64_t{1} << 50;
+  std::array<std::int64_t, 4> numbers{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool good = true;
+  for (std::size_t i = 0; i < numbers.size() && good; ++i) {
+    const auto [after, fault] = std::from_chars(at, end, numbers[i]);
+    good = fault == std::errc() && (i == 3 ? after == end : after != end && *after == ',');
+    at = after + 1;
+  }
+  if (!good)
+    throw Error(ErrorKind::usage, "--rect",
+                fmt::format("'{}' is no window; give four whole numbers X,Y,WIDTH,HEIGHT in texels", text));
+  const auto [x, y, width, height] = numbers;
+  if (std::min(x, y) < -farthest || std::max(x, y) > farthest)
+    throw Error(ErrorKind::usage, "--rect",
+                fmt::format("{},{}; X and Y may be -2^50..2^50 (the texture wraps)", x, y));
+  if (std::min(width, height) < 1 || std::max(width, height) > std::int64_t{1} << 30)
+    throw Error(ErrorKind::usage, "--rect",
+                fmt::format("{} x {} texels; width and height may be 1..2^30", width, height));
+  return {x, y, static_cast<int>(width), static_cast<int>(height)};
+}
+
+VirtualRect default_rect(const Pack& pack, int level) {
+  const Size tile = level_size(pack.tile_size, level);
+  const auto side = [](std::int64_t tiles, int texels) {
+    return static_cast<int>(std::min<std::int64_t>(tiles, default_tiles)) * texels;
+  };
+  return {0, 0, side(pack.mapping.size.width, tile.width), side(pack.mapping.size.height, tile.height)};
+}
+
+// The file format is asked for by the extension; the depth of the map is kept if the format has it.
+RenderTarget target_for(const std::string& file, const PackedMap& map, const std::string& encoding) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  const bool integers = map.depth == Depth::u8 || map.depth == Depth::u16;
+  RenderTarget target{map.encoding, map.depth};
+  if (extension == ".png") {
+    if (!integers) {
+      target.depth = Depth::u16;
+      if (map.role == Role::color) target.encoding = Encoding::srgb;
+    }
+  } else if (extension == ".exr") {
+    target.encoding = Encoding::linear;
+    if (integers) target.depth = map.depth == Depth::u8 ? Depth::f16 : Depth::f32;
+  } else {
+    throw Error(ErrorKind::usage, "-o",
+                fmt::format("'{}' ends in '{}'; pictures are written as .png or .exr", file, extension));
+  }
+  if (encoding == "srgb")
+    target.encoding = Encoding::srgb;
+  else if (encoding == "linear")
+    target.encoding = Encoding::linear;
+  else if (!encoding.empty())
+    throw Error(ErrorKind::usage, "--encoding", fmt::format("'{}'; it is srgb or linear", encoding));
+  return target;
+}
+
+int run_render(const RenderArguments& arguments, Console& console) {
+  const JobLimit limit(arguments.jobs);
+  const Filter filter = filter_of(arguments.filter);
+  std::optional<VirtualRect> rect;
+  if (!arguments.rect.empty()) rect = parsed_rect(arguments.rect);
+
+  const Pack pack = read_pack(arguments.pack);
+  const int map = map_number(pack, arguments.map);
+  const auto& packed = pack.maps[static_cast<std::size_t>(map)];
+  const int levels = static_cast<int>(packed.levels.size());
+  if (arguments.level < 0 || arguments.level >= levels)
+    throw Error(ErrorKind::usage, "--level",
+                fmt::format("{}; the pack has levels 0..{}", arguments.level, levels - 1));
+  const RenderTarget target = target_for(arguments.output, packed, arguments.encoding);
+
+  const View view{rect ? *rect : default_rect(pack, arguments.level), arguments.level, arguments.scale,
+                  filter};
+  const Renderer renderer(pack, map, view, target);
+  const Size size = renderer.size();
+  const std::size_t row_values =
+      static_cast<std::size_t>(size.width) * static_cast<std::size_t>(packed.channels);
+  const int band = static_cast<int>(std::max<std::size_t>(1, band_values / row_values));
+
+  const Progress progress = console.progress();
+  ImageWriter writer(arguments.output, size, packed.channels, target.depth, target.encoding);
+  for (int row = 0; row < size.height; row += band) {
+    report(progress, "render", static_cast<double>(row) / size.height);
+    writer.write(renderer.rows(row, std::min(band, size.height - row)));
+  }
+  writer.finish();
+  report(progress, "render", 1.0);
+  return 0;
+}
+
+Action declare_render(CLI::App& app) {
+  auto a = std::make_shared<RenderArguments>();
+  app.add_option("PACK", a->pack, "folder of a pack, or its pack.json")->required();
+  app.add_option("-o,--output", a->output,
+                 "picture to write, .png or .exr; the depth of the map is kept if the format has it")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--map", a->map, "name of the map (default: the first)")->type_name("NAME");
+  app.add_option(
+         "--rect", a->rect,
+         "window in texels of the level, anywhere: the texture wraps (default: the first 8 x 8 tiles)")
+      ->type_name("X,Y,W,H");
+  app.add_option("--level", a->level, "mip level, 0 the finest (default 0)")->type_name("L");
+  app.add_option("--filter", a->filter,
+                 "nearest, bilinear or trilinear, which reads the level that fits the scale (default)")
+      ->type_name("NAME");
+  app.add_option("--scale", a->scale,
+                 "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")
+      ->type_name("S");
+  app.add_option("--encoding", a->encoding,
+                 "srgb or linear (default: that of the map; in EXR linear, in PNG of float color srgb)")
+      ->type_name("NAME");
+  add_jobs_option(app, a->jobs);
+  return [a](Console& console) { return run_render(*a, console); };
+}
+
+} // namespace
+
+Verb render_verb() {
+  return {"render", "render a window of the virtual texture, at any level and scale",
+          "  tilepack render gravel.pack -o gravel.png\n"
+          "  tilepack render gravel.pack -o far.png --rect=-512,0,4096,4096 --scale 0.25\n",
+          declare_render};
+}
+
+} // namespace tilepack::cli
