@@ -25,7 +25,7 @@ struct RenderArguments {
   std::string pack;
   std::string output;
   std::string map;
-  std::string rect;
+  std::optional<std::string> rect;
   std::string filter = "trilinear";
   std::string encoding;
   int level = 0;
@@ -112,7 +112,7 @@ int run_render(const RenderArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
   const Filter filter = filter_of(arguments.filter);
   std::optional<VirtualRect> rect;
-  if (!arguments.rect.empty()) rect = parsed_rect(arguments.rect);
+  if (arguments.rect) rect = parsed_rect(*arguments.rect);
 
   const Pack pack = read_pack(arguments.pack);
   const int map = map_number(pack, arguments.map);
