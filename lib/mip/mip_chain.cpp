@@ -1,6 +1,7 @@
 #include "tilepack/mip/mip_chain.h"
 
 #include "tilepack/mip/downsample.h"
+#include "tilepack/mip/least_squares.h"
 #include "tilepack/mip/shared_border.h"
 
 #include <tbb/parallel_for.h>
@@ -117,7 +118,8 @@ bool exact_through_guard(int guard, int level) {
   return level == 0 || (level < 31 && (1 << level) <= guard);
 }
 
-std::vector<TileMap> mip_chain(const TileSet& set, int map_index, const MipOptions& options) {
+std::vector<TileMap> mip_chain(const TileSet& set, int map_index, const MipOptions& options,
+                               const Layout* layout) {
   const TileMap& map = set.maps[as_size(map_index)];
   const std::size_t tiles = map.tiles.size();
   const int levels = options.mode == MipMode::none ? 1 : level_count(set.tile_size);
@@ -136,10 +138,15 @@ std::vector<TileMap> mip_chain(const TileSet& set, int map_index, const MipOptio
     for (std::size_t level = 2; level < chain.size(); ++level)
       chain[level].tiles[id] = halved(chain[level - 1].tiles[id], weighting);
   });
-  for (int level = 1; level < levels; ++level)
-    if (!exact_through_guard(set.guard, level))
-      sanitize(set.tiles, level_size(set.tile_size, level), options.mode, weighting,
-               chain[as_size(level)].tiles);
+  const PackNeighbours neighbours = layout ? pack_neighbours(*layout) : PackNeighbours{};
+  tbb::parallel_for(1, levels, [&](int level) {
+    if (exact_through_guard(set.guard, level)) return;
+    std::vector<Image>& images = chain[as_size(level)].tiles;
+    if (options.mode == MipMode::least_squares)
+      fit_borders(set.tiles, neighbours, options.jump_weight, weighting, images);
+    else
+      sanitize(set.tiles, level_size(set.tile_size, level), options.mode, weighting, images);
+  });
   tbb::parallel_for(std::size_t{0}, tiles * as_size(levels - 1), [&](std::size_t i) {
     Image& tile = chain[1 + i / tiles].tiles[i % tiles];
     tile = encoded(std::move(tile), map);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/layout/layout.h"
 #include "tilepack/tileset/tile_set.h"
 
 #include <string_view>
@@ -14,13 +15,15 @@ enum class MipMode {
   box,     ///< nothing
   edges,   ///< border texels averaged over all tiles that share the edge color, corner texels left alone
   corners, ///< the four corner texels too: over all tiles for edge coloring, per color for corner coloring
-  least_squares, ///< border texels that minimise the expected error over random neighbours
+  least_squares, ///< border texels that minimise the expected error over random neighbours, traded against
+                 ///< the jump at borders; see mip/least_squares.h
 };
 
 std::string_view name_of(MipMode mode); ///< "none", "box", "edges", "corners", "least-squares"
 
 struct MipOptions {
   MipMode mode = MipMode::edges;
+  int jump_weight = 4; ///< least_squares: cost of a jump across a border against that of an error, 0..1000
 };
 
 /// Number of levels of a tile, level 0 counted: halved as long as both sides are even; a 128² tile has 8
@@ -43,6 +46,7 @@ bool exact_through_guard(int guard, int level);
 /// sanitized as `options` says (mip/shared_border.h tells what becomes equal). The values returned are
 /// encoded as level 0 is, and not yet rounded; texels made equal are equal in every bit. The result does not
 /// depend on the number of threads.
-std::vector<TileMap> mip_chain(const TileSet& set, int map, const MipOptions& options);
+std::vector<TileMap> mip_chain(const TileSet& set, int map, const MipOptions& options,
+                               const Layout* layout = nullptr);
 
 } // namespace tilepack

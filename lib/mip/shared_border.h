@@ -33,14 +33,14 @@ struct SharedTexels {
 /// that the texture has there). Then also b' = b: what the filter sees is what the virtual texture has.
 /// Columns likewise, and corner texels, of which a filter at a lattice point reads four.
 ///
-///   none, box      no promise
-///   edges,
-///   least_squares  north rows by color, south rows by color, west and east columns by color, without the
+///   none, box,
+///   least_squares  no promise
+///   edges          north rows by color, south rows by color, west and east columns by color, without the
 ///                  corner texels. Under corner coloring the color of an edge is the pair of its ends.
 ///   corners        and each corner texel: over all tiles under edge coloring, since any tile can lie
 ///                  diagonally across; by its own color under corner coloring
 ///
-/// Under corner coloring, least_squares promises the corner texels too. A side one texel long is both borders
+/// A side one texel long is both borders
 /// at once, so both classes apply to it; they link all tiles of a complete set, and the places form one group
 /// of all tiles.
 std::vector<SharedTexels> shared_border(const TileColors& tiles, Size size, MipMode mode);

@@ -104,7 +104,7 @@ PackedMap packed(const TileSet& set, int map, const Layout& layout, const MipOpt
   const TileMap& finest = set.maps[static_cast<std::size_t>(map)];
   PackedMap result{finest.name, finest.role, finest.encoding, finest.depth, finest.tiles.front().channels(),
                    {}};
-  for (const TileMap& level : mip_chain(set, map, mips))
+  for (const TileMap& level : mip_chain(set, map, mips, &layout))
     result.levels.push_back(quantised(atlas(level.tiles, layout), result.depth));
   return result;
 }

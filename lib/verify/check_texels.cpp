@@ -160,10 +160,9 @@ int ceil_shift(int value, int shift) {
 
 void check_guard(const LevelView& view, std::vector<Issue>& issues) {
   const Pack& pack = *view.pack;
-  const bool kept = view.level == 0 || pack.mip_mode != MipMode::least_squares;
   const int rows = pack.guard >> view.level;
   const bool corners_shared = coloring_of(pack.tiles) == Coloring::corner;
-  if (rows >= 1 && kept) {
+  if (rows >= 1) {
     const int skip = corners_shared ? 0 : ceil_shift(pack.guard, view.level);
     for (const Side side : all_sides)
       check_strip(
@@ -215,11 +214,12 @@ std::vector<Issue> check_level(const LevelView& view) {
         [depth = view.map->depth](float v) { return !std::isfinite(v) || quantised(v, depth) == v; }, issues);
   check_guard(view, issues);
   const MipMode mode = view.pack->mip_mode;
-  if (view.level >= 1 && (mode == MipMode::edges || mode == MipMode::corners))
+  const bool sanitized = !exact_through_guard(view.pack->guard, view.level);
+  if (sanitized && (mode == MipMode::edges || mode == MipMode::corners))
     for (const Side side : all_sides)
       check_strip(
           view, {side, 1, 1}, [](int) { return Rule::sanitized_edges; }, issues);
-  if (view.level >= 1 && mode == MipMode::corners) check_corners(view, issues);
+  if (sanitized && mode == MipMode::corners) check_corners(view, issues);
   return issues;
 }
 
