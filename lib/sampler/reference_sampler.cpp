@@ -31,35 +31,35 @@ struct Sums {
   }
 };
 
-void add_level(Sums& sums, const PackTexels& texels, PackTexels::Place place, double fraction_x,
-               double fraction_y, int level, double weight, Filter filter) {
-  const Size tile = texels.tile_size(level);
-  const bool alpha = texels.has_alpha();
-  if (filter == Filter::nearest) {
-    sums.add(texels.texel(level, place, nearest_texel(fraction_x, tile.width),
-                          nearest_texel(fraction_y, tile.height)),
-             weight, alpha);
-    return;
+void add_taps(Sums& sums, const PackTexels::Taps& taps, double weight, bool alpha) {
+  for (int i = 0; i < taps.count; ++i) {
+    const PackTexels::Tap& tap = taps.taps[static_cast<std::size_t>(i)];
+    sums.add(tap.texel, weight * tap.weight, alpha);
   }
-  const Taps x = bilinear_taps(fraction_x, tile.width);
-  const Taps y = bilinear_taps(fraction_y, tile.height);
-  // A texel of weight 0 is not read: what lies there, infinity included, must not show.
-  for (int j = 0; j < 2; ++j)
-    for (int i = 0; i < 2; ++i) {
-      const double w = weight * (i == 0 ? 1.0 - x.weight : x.weight) * (j == 0 ? 1.0 - y.weight : y.weight);
-      if (w != 0.0) sums.add(texels.texel(level, place, x.first + i, y.first + j), w, alpha);
-    }
+}
+
+void add_level(Sums& sums, const PackTexels& texels, const CornerTexels* corners, const TilePoint& point,
+               int level, double weight, Filter filter) {
+  const double corner = corners ? corners->weight(level, point.x, point.y) : 0.0;
+  if (corner < 1.0)
+    add_taps(sums, texels.taps(level, point.place, point.x, point.y, filter), weight * (1.0 - corner),
+             texels.has_alpha());
+  if (corner > 0.0)
+    add_taps(sums,
+             corners->taps(level, corners->place(point.cell_x, point.cell_y, point.x, point.y), point.x,
+                           point.y, filter),
+             weight * corner, texels.has_alpha());
 }
 
 } // namespace
 
-void sample_tile(const PackTexels& texels, PackTexels::Place place, double fraction_x, double fraction_y,
+void sample_tile(const PackTexels& texels, const CornerTexels* corners, const TilePoint& point,
                  const LevelBlend& levels, Filter filter, std::span<double> out) {
   assert(out.size() == static_cast<std::size_t>(texels.channels()) && out.size() <= max_channels);
   Sums sums;
-  add_level(sums, texels, place, fraction_x, fraction_y, levels.fine, 1.0 - levels.coarse_weight, filter);
+  add_level(sums, texels, corners, point, levels.fine, 1.0 - levels.coarse_weight, filter);
   if (levels.coarse_weight > 0.0)
-    add_level(sums, texels, place, fraction_x, fraction_y, levels.coarse, levels.coarse_weight, filter);
+    add_level(sums, texels, corners, point, levels.coarse, levels.coarse_weight, filter);
   sums.resolve(out, texels.has_alpha());
 }
 
@@ -67,7 +67,8 @@ void ReferenceSampler::sample(TileCoordinate x, TileCoordinate y, double level, 
                               std::span<double> out) const {
   const TileCoordinate east = normalised(x);
   const TileCoordinate south = normalised(y);
-  sample_tile(texels, texels.place(east.tile, south.tile), east.fraction, south.fraction,
+  sample_tile(texels, corners ? &*corners : nullptr,
+              {east.tile, south.tile, texels.place(east.tile, south.tile), east.fraction, south.fraction},
               level_blend(level, texels.levels(), filter), filter, out);
 }
 

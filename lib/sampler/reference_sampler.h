@@ -1,9 +1,12 @@
 #pragma once
 
 #include "tilepack/sampler/address.h"
+#include "tilepack/sampler/corner_blend.h"
 #include "tilepack/sampler/filter.h"
 #include "tilepack/sampler/pack_texels.h"
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 namespace tilepack {
@@ -14,7 +17,7 @@ namespace tilepack {
 /// Filtering is that of graphics hardware on the packed texture: the tile of the cell that holds the point is
 /// found, its place in the pack, and the filter reads the pack's texels around it, wrapping at the pack's
 /// borders. So across a tile's border it reads the pack's neighbour, which matches along edges but not at the
-/// corners of an edge-colored set.
+/// corners of an edge-colored set. There the corner pack is blended in, if the pack has one.
 ///
 /// What is averaged:
 ///   * sRGB values are decoded to linear light first (to floats, as everywhere in tilepack; weights and sums
@@ -29,7 +32,11 @@ namespace tilepack {
 class ReferenceSampler {
 public:
   /// `pack` must outlive the sampler. map: index into pack.maps (Error, usage, if there is none such).
-  ReferenceSampler(const Pack& pack, int map) : texels(pack, map) {}
+  /// corner_width: see corner_weight; 0 leaves the corner pack aside.
+  ReferenceSampler(const Pack& pack, int map, double corner_width = default_corner_width)
+      : texels(pack, map) {
+    if (pack.corner_pack && corner_width > 0) corners.emplace(pack, map, corner_width);
+  }
 
   int channels() const { return texels.channels(); }
 
@@ -38,11 +45,21 @@ public:
 
 private:
   PackTexels texels;
+  std::optional<CornerTexels> corners;
 };
 
-/// The same lookup where the tile has already been found: `place` is that of the cell that holds the point,
-/// fraction_x and fraction_y (0 <= fraction < 1) where it lies in it.
-void sample_tile(const PackTexels& texels, PackTexels::Place place, double fraction_x, double fraction_y,
+/// A point of the virtual texture whose tile has been found: `place` is that of the cell that holds it, the
+/// fractions (0 <= fraction < 1) tell where it lies in it.
+struct TilePoint {
+  std::int64_t cell_x = 0;
+  std::int64_t cell_y = 0;
+  PackTexels::Place place;
+  double x = 0; ///< fractions of the tile's sides
+  double y = 0;
+};
+
+/// The same lookup from there. `corners` may be null.
+void sample_tile(const PackTexels& texels, const CornerTexels* corners, const TilePoint& point,
                  const LevelBlend& levels, Filter filter, std::span<double> out);
 
 } // namespace tilepack

@@ -1,6 +1,7 @@
 #include "tilepack/sampler/render.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/layout/place_tiles.h"
 #include "tilepack/sampler/reference_sampler.h"
 
 #include <tbb/parallel_for.h>
@@ -72,12 +73,15 @@ Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, cons
              levels_for(of_view, static_cast<int>(map->levels.size())).coarse),
       levels(levels_for(of_view, texels.levels())) {
   if (view.scale == 1.0) {
-    stored = map->levels[static_cast<std::size_t>(view.level)];
+    Image level = map->levels[static_cast<std::size_t>(view.level)];
     if (target.encoding != map->encoding)
-      stored = from_linear(to_linear(stored, map->encoding), target.encoding);
-    stored = quantised(stored, target.depth);
+      level = from_linear(to_linear(level, map->encoding), target.encoding);
+    stored = tiles_at_level(level, pack->layout, pack->tile_size, view.level);
+    for (Image& tile : stored) tile = quantised(tile, target.depth);
     return;
   }
+  if (pack->corner_pack && view.corner_width > 0)
+    corners.emplace(*pack, map_index, view.corner_width, levels.fine, levels.coarse);
   const Size tile = texels.tile_size(view.level);
   columns.resize(static_cast<std::size_t>(picture.width));
   for (int i = 0; i < picture.width; ++i)
@@ -86,8 +90,7 @@ Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, cons
 
 Image Renderer::rows(int first, int count) const {
   if (view.scale == 1.0)
-    return virtual_texture(*pack, stored, view.level,
-                           {view.rect.x, view.rect.y + first, picture.width, count});
+    return virtual_texture(*pack, stored, {view.rect.x, view.rect.y + first, picture.width, count});
   Image band(picture.width, count, channels());
   tbb::parallel_for(0, count, [&](int row) { render_row(first + row, band.row(row)); });
   return band;
@@ -105,11 +108,13 @@ void Renderer::render_row(int row, std::span<float> out) const {
   const std::span<double> value(buffer.data(), channel_count);
 
   // The tile is found once a cell, not once a pixel: columns run from west to east.
-  PackTexels::Place place;
+  TilePoint point;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const TileCoordinate& x = columns[i];
-    if (i == 0 || x.tile != columns[i - 1].tile) place = texels.place(x.tile, y.tile);
-    sample_tile(texels, place, x.fraction, y.fraction, levels, view.filter, value);
+    if (i == 0 || x.tile != columns[i - 1].tile)
+      point = {x.tile, y.tile, texels.place(x.tile, y.tile), 0, y.fraction};
+    point.x = x.fraction;
+    sample_tile(texels, corners ? &*corners : nullptr, point, levels, view.filter, value);
     if (renormal) renormalise(value);
     for (std::size_t c = 0; c < encoded; ++c) value[c] = linear_to_srgb(value[c]);
     for (std::size_t c = 0; c < channel_count; ++c)

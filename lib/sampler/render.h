@@ -1,10 +1,12 @@
 #pragma once
 
 #include "tilepack/sampler/address.h"
+#include "tilepack/sampler/corner_blend.h"
 #include "tilepack/sampler/filter.h"
 #include "tilepack/sampler/pack_texels.h"
 #include "tilepack/sampler/virtual_texture.h"
 
+#include <optional>
 #include <vector>
 
 namespace tilepack {
@@ -14,7 +16,8 @@ struct View {
   VirtualRect rect; ///< in texels of `level`
   int level = 0;    ///< 0..tile_levels-1
   double scale = 1; ///< output pixels a texel, > 0: pixel i samples rect.x + (i + 0.5) / scale
-  Filter filter = Filter::trilinear; ///< trilinear reads the level whose texels are a pixel apart
+  Filter filter = Filter::trilinear;          ///< trilinear reads the level whose texels are a pixel apart
+  double corner_width = default_corner_width; ///< see corner_weight; 0 leaves a corner pack aside
 };
 
 /// How the rendered values are to be stored.
@@ -32,7 +35,8 @@ constexpr int max_render_side = 65536;
 /// number of threads, and those of ReferenceSampler.
 ///
 /// At scale 1 pixels lie on texels: every filter gives the texels of the level themselves, and if encoding
-/// and depth are those of the map, bit for bit. Elsewhere filtered normals are renormalised.
+/// and depth are those of the map, bit for bit (of a rotated layout, whose texels lie elsewhere, what
+/// tiles_at_level reads back). Elsewhere filtered normals are renormalised.
 class Renderer {
 public:
   /// `pack` must outlive this. Throws Error (usage): a map or level the pack doesn't hold, and the errors of
@@ -54,8 +58,9 @@ private:
   RenderTarget target;
   Size picture;
   PackTexels texels;
+  std::optional<CornerTexels> corners;
   LevelBlend levels;
-  Image stored;                        ///< at scale 1: the texels of the level as the target wants them
+  std::vector<Image> stored;           ///< at scale 1: the tiles of the level as the target wants them, by id
   std::vector<TileCoordinate> columns; ///< elsewhere: where the pixels of a row lie
 };
 

@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/wrap.h"
+#include "tilepack/layout/place_tiles.h"
 
 #include <tbb/parallel_for.h>
 
@@ -11,38 +12,36 @@
 namespace tilepack {
 namespace {
 
-// One row of the window: cell by cell, since within a cell the texels are consecutive in the pack too.
-void copy_row(const Pack& pack, const Image& level, Size tile, const VirtualRect& rect, int row,
+// One row of the window: cell by cell, since within a cell the texels are consecutive in the tile too.
+void copy_row(const Pack& pack, const std::vector<Image>& tiles, const VirtualRect& rect, int row,
               std::span<float> out) {
+  const Size tile = tiles.front().size();
   const std::int64_t y = rect.y + row;
   const int texel_y = static_cast<int>(wrapped(y, static_cast<std::int64_t>(tile.height)));
   const std::int64_t cell_y = (y - texel_y) / tile.height;
-  const auto channels = static_cast<std::size_t>(level.channels());
+  const auto channels = static_cast<std::size_t>(tiles.front().channels());
   for (int column = 0; column < rect.width;) {
     const std::int64_t x = rect.x + column;
     const int texel_x = static_cast<int>(wrapped(x, static_cast<std::int64_t>(tile.width)));
     const int count = std::min(tile.width - texel_x, rect.width - column);
     const int id = tile_at(pack.mapping, pack.colors, (x - texel_x) / tile.width, cell_y);
-    const Cell& cell = pack.layout.cells[static_cast<std::size_t>(id)];
-    const auto from = level.row(cell.row * tile.height + texel_y)
-                          .subspan(static_cast<std::size_t>(cell.column * tile.width + texel_x) * channels,
-                                   static_cast<std::size_t>(count) * channels);
-    std::copy(from.begin(), from.end(), out.begin() + static_cast<std::ptrdiff_t>(column) * level.channels());
+    const auto from = tiles[static_cast<std::size_t>(id)].row(texel_y).subspan(
+        static_cast<std::size_t>(texel_x) * channels, static_cast<std::size_t>(count) * channels);
+    std::copy(from.begin(), from.end(),
+              out.begin() + static_cast<std::ptrdiff_t>(column) * tiles.front().channels());
     column += count;
   }
 }
 
 } // namespace
 
-Image virtual_texture(const Pack& pack, const Image& level_image, int level, VirtualRect rect) {
+Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect) {
   if (rect.width < 1 || rect.height < 1)
     throw Error(ErrorKind::usage, "rect",
                 std::to_string(rect.width) + " x " + std::to_string(rect.height) +
                     " texels; both sides must be at least 1");
-  const Size tile = level_size(pack.tile_size, level);
-  Image result(rect.width, rect.height, level_image.channels());
-  tbb::parallel_for(0, rect.height,
-                    [&](int row) { copy_row(pack, level_image, tile, rect, row, result.row(row)); });
+  Image result(rect.width, rect.height, tiles.at(0).channels());
+  tbb::parallel_for(0, rect.height, [&](int row) { copy_row(pack, tiles, rect, row, result.row(row)); });
   return result;
 }
 
@@ -56,7 +55,9 @@ Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect) {
     throw Error(ErrorKind::usage, "level",
                 std::to_string(level) + " is not stored; the pack has levels 0.." +
                     std::to_string(levels.size() - 1));
-  return virtual_texture(pack, levels[static_cast<std::size_t>(level)], level, rect);
+  return virtual_texture(
+      pack, tiles_at_level(levels[static_cast<std::size_t>(level)], pack.layout, pack.tile_size, level),
+      rect);
 }
 
 } // namespace tilepack

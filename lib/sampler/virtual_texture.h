@@ -3,6 +3,7 @@
 #include "tilepack/pack/pack.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace tilepack {
 
@@ -16,12 +17,12 @@ struct VirtualRect {
 
 /// The virtual texture written out: what a user without tiles would have stored at this level.
 ///
-/// The tiles of pack.maps[map] at `level` as they are in the pack, side by side as the mapping says; values
-/// and encoding as stored. Throws Error (usage) for a map or level the pack doesn't hold, or sides below 1.
+/// The tiles of pack.maps[map] at `level` as they are in the pack (see tiles_at_level), side by side as the
+/// mapping says; values and encoding as stored. Throws Error (usage) for a map or level the pack doesn't
+/// hold, or sides below 1.
 Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect);
 
-/// The same with the texels of `level_image` (laid out as that level of the pack is, any channels) in place
-/// of the map's own.
-Image virtual_texture(const Pack& pack, const Image& level_image, int level, VirtualRect rect);
+/// The same from `tiles`, one image a tile id, all of one size: `rect` is in their texels.
+Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect);
 
 } // namespace tilepack

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "tilepack/sampler/pack_texels.h"
+
+#include <cstdint>
+
+namespace tilepack {
+
+/// How far from a corner, in texels of the level looked up, the corner pack counts unless told otherwise.
+inline constexpr double default_corner_width = 4.0;
+
+/// The share of the corner pack at a point of a tile (fractions of its sides, whose texels are `tile`): 1
+/// within half the diagonal of a texel of the nearest corner, which is as far as a bilinear filter reads
+/// across it; then falling with the distance to 0 at `width` texels. Continuous with its first derivative,
+/// also from tile to tile: `width` is cut to half the shorter side, and the flat part to half of that.
+/// [Wei04, App. B]
+double corner_weight(double fraction_x, double fraction_y, Size tile, double width);
+
+/// The corner pack of an edge-colored pack as a filter uses it beside the tiles.
+class CornerTexels {
+public:
+  /// `width` as in corner_weight. Throws Error (usage) if the pack has no corner pack.
+  CornerTexels(const Pack& pack, int map, double width, int first_level = 0, int last_level = 1 << 20);
+
+  double weight(int level, double fraction_x, double fraction_y) const {
+    return corner_weight(fraction_x, fraction_y, texels.tile_size(level), blend_width);
+  }
+
+  /// What the filter reads for a point of cell (x, y), found through the corner nearest to the point.
+  PackTexels::Place place(std::int64_t cell_x, std::int64_t cell_y, double fraction_x,
+                          double fraction_y) const;
+  PackTexels::Taps taps(int level, PackTexels::Place place, double fraction_x, double fraction_y,
+                        Filter filter) const {
+    return texels.taps(level, place, fraction_x, fraction_y, filter);
+  }
+
+private:
+  const Pack* pack;
+  PackTexels texels;
+  double blend_width;
+};
+
+} // namespace tilepack
