@@ -1,0 +1,162 @@
+#include "render_camera.h"
+
+#include "tilepack/image/image_file.h"
+#include "tilepack/scanline/mesh.h"
+#include "tilepack/scanline/view_render.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace tilepack::cli {
+namespace {
+
+constexpr int band_rows = 256;
+constexpr std::array camera_options{"--size",   "--mesh",       "--repeat",    "--span",
+                                    "--reseed", "--span-error", "--precision", "--background"};
+
+Size parsed_size(const std::string& text) {
+  Size size;
+  const char* const end = text.data() + text.size();
+  const auto [cross, fault] = std::from_chars(text.data(), end, size.width);
+  if (fault == std::errc() && cross != end && *cross == 'x') {
+    const auto [after, second_fault] = std::from_chars(cross + 1, end, size.height);
+    if (second_fault == std::errc() && after == end) return size;
+  }
+  throw Error(ErrorKind::usage, "--size",
+              fmt::format("'{}' is no size; give WIDTHxHEIGHT in pixels, such as 1920x1080", text));
+}
+
+std::vector<float> parsed_background(const std::string& text) {
+  std::vector<float> values;
+  if (text.empty()) return values;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (;;) {
+    float value = 0;
+    const auto [after, fault] = std::from_chars(at, end, value);
+    if (fault != std::errc() || (after != end && *after != ',')) {
+      throw Error(
+          ErrorKind::usage, "--background",
+          fmt::format("'{}' is no list of numbers with commas, one a channel, such as 0.5,0.6,0.8", text));
+    }
+    values.push_back(value);
+    if (after == end) return values;
+    at = after + 1;
+  }
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream.is_open() || stream.bad()) {
+    throw Error(ErrorKind::cannot_read, file, "can't be read; give a Wavefront OBJ file");
+  }
+  return text;
+}
+
+SpanPrecision precision_of(const std::string& name) {
+  if (name == "f32") return SpanPrecision::f32;
+  if (name == "f64") return SpanPrecision::f64;
+  throw Error(ErrorKind::usage, "--precision", fmt::format("'{}'; it is f32 or f64", name));
+}
+
+Scene scene_of(const CameraArguments& arguments) {
+  if (!(arguments.repeat >= 1e-6 && arguments.repeat <= 1e6)) {
+    throw Error(ErrorKind::usage, "--repeat",
+                fmt::format("{} tiles a unit; it may be 1e-6..1e6", arguments.repeat));
+  }
+  Scene scene;
+  if (!arguments.mesh.empty()) {
+    scene.triangles = parse_obj(text_of(arguments.mesh), arguments.mesh, arguments.repeat);
+  } else {
+    const double tile = 1 / arguments.repeat;
+    scene.planes.push_back({{0, 0, 0}, {tile, 0, 0}, {0, 0, tile}});
+  }
+  return scene;
+}
+
+} // namespace
+
+void add_camera_options(CLI::App& app, CameraArguments& a) {
+  const char* const group = "Camera views";
+  app.add_option("--camera", a.camera,
+                 "view in perspective: eye x,y,z, target x,y,z, up x,y,z and the vertical field of view in "
+                 "degrees, ten numbers; the ground is the plane y = 0, v growing with z")
+      ->type_name("EYE,TARGET,UP,FOV")
+      ->group(group);
+  app.add_option("--size", a.size, "of the view in pixels (default 1280x720)")
+      ->type_name("WxH")
+      ->group(group);
+  app.add_option("--mesh", a.mesh, "triangles with texture coordinates instead of the ground, an OBJ file")
+      ->type_name("FILE.obj")
+      ->group(group);
+  app.add_option("--repeat", a.repeat,
+                 "tiles a world unit of the ground or a unit of texture coordinate (default 1)")
+      ->type_name("N")
+      ->group(group);
+  app.add_option(
+         "--span", a.span,
+         "how scanlines are stepped: exact (default), euler1, euler2, newton, newton-general, affine, "
+         "estimate")
+      ->type_name("METHOD")
+      ->group(group);
+  app.add_option("--reseed", a.reseed, "an exact value every N pixels (default: only at the near end)")
+      ->type_name("N")
+      ->group(group);
+  app.add_option("--span-error", a.span_error,
+                 "choose --reseed so that no pixel is off by more than this many")
+      ->type_name("PIXELS")
+      ->group(group);
+  app.add_option("--precision", a.precision, "of the stepping: f32 (default) or f64")
+      ->type_name("NAME")
+      ->group(group);
+  app.add_option("--background", a.background,
+                 "what shows where nothing is, one stored value a channel (default 0)")
+      ->type_name("V,V,V")
+      ->group(group);
+}
+
+void refuse_camera_options_alone(const CLI::App& app) {
+  for (const char* name : camera_options) {
+    if (app.count(name) > 0) {
+      throw Error(ErrorKind::usage, name, "is for camera views only; add --camera or leave it out");
+    }
+  }
+}
+
+int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
+                  const std::string& filter, const std::string& output, Console& console) {
+  if (arguments.span_error != 0 && !(arguments.span_error > 0 && arguments.span_error <= 1000)) {
+    throw Error(ErrorKind::usage, "--span-error",
+                fmt::format("{} pixels; it must be above 0, at most 1000", arguments.span_error));
+  }
+  if (arguments.span_error > 0 && arguments.reseed > 0) {
+    throw Error(ErrorKind::usage, "--span-error", "chooses --reseed; give one of the two");
+  }
+  ViewOptions options;
+  options.stepping = {{span_method_of(arguments.span), arguments.reseed},
+                      precision_of(arguments.precision),
+                      arguments.span_error};
+  options.filter = view_filter_of(filter);
+  options.background = parsed_background(arguments.background);
+  const ViewRenderer renderer(pack, map, scene_of(arguments), camera_of(*arguments.camera),
+                              parsed_size(arguments.size), options, target);
+
+  const Size size = renderer.size();
+  const Progress progress = console.progress();
+  ImageWriter writer(output, size, renderer.channels(), target.depth, target.encoding);
+  for (int row = 0; row < size.height; row += band_rows) {
+    report(progress, "render", static_cast<double>(row) / size.height);
+    writer.write(renderer.rows(row, std::min(band_rows, size.height - row)));
+  }
+  writer.finish();
+  report(progress, "render", 1.0);
+  return 0;
+}
+
+} // namespace tilepack::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "console.h"
+
+#include "tilepack/pack/pack.h"
+#include "tilepack/sampler/render.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace tilepack::cli {
+
+/// What `tilepack render --camera` is told beyond the options of every rendering.
+struct CameraArguments {
+  std::optional<std::string> camera; ///< ten numbers; without it the window of the texture is rendered
+  std::string size = "1280x720";
+  std::string mesh; ///< OBJ file; empty: the ground plane
+  double repeat = 1;
+  std::string span = "exact";
+  int reseed = 0;
+  double span_error = 0;
+  std::string precision = "f32";
+  std::string background;
+};
+
+void add_camera_options(CLI::App& app, CameraArguments& arguments);
+
+/// Throws Error (usage) when camera options are given without --camera.
+void refuse_camera_options_alone(const CLI::App& app);
+
+/// Renders the view and writes it. `filter`: trilinear or anisotropic.
+int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
+                  const std::string& filter, const std::string& output, Console& console);
+
+} // namespace tilepack::cli
