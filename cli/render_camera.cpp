@@ -19,6 +19,8 @@ constexpr int band_rows = 256;
 constexpr std::array camera_options{"--size",   "--mesh",       "--repeat",    "--span",
                                     "--reseed", "--span-error", "--precision", "--background"};
 
+constexpr std::array window_options{"--rect", "--level", "--scale"};
+
 Size parsed_size(const std::string& text) {
   Size size;
   const char* const end = text.data() + text.size();
@@ -121,10 +123,18 @@ void add_camera_options(CLI::App& app, CameraArguments& a) {
       ->group(group);
 }
 
-void refuse_camera_options_alone(const CLI::App& app) {
+void refuse_camera_options(const CLI::App& app) {
   for (const char* name : camera_options) {
     if (app.count(name) > 0) {
       throw Error(ErrorKind::usage, name, "is for camera views only; add --camera or leave it out");
+    }
+  }
+}
+
+void refuse_window_options(const CLI::App& app) {
+  for (const char* name : window_options) {
+    if (app.count(name) > 0) {
+      throw Error(ErrorKind::usage, name, "is for windows of the texture; leave it or --camera out");
     }
   }
 }

@@ -27,8 +27,9 @@ struct CameraArguments {
 
 void add_camera_options(CLI::App& app, CameraArguments& arguments);
 
-/// Throws Error (usage) when camera options are given without --camera.
-void refuse_camera_options_alone(const CLI::App& app);
+/// Throw Error (usage) when an option was given that goes only with the other kind of rendering.
+void refuse_camera_options(const CLI::App& app); ///< for windows: an option that needs --camera
+void refuse_window_options(const CLI::App& app); ///< for views: --rect, --level, --scale
 
 /// Renders the view and writes it. `filter`: trilinear or anisotropic.
 int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,

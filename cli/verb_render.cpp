@@ -1,4 +1,5 @@
 #include "jobs.h"
+#include "render_camera.h"
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
@@ -31,6 +32,7 @@ struct RenderArguments {
   int level = 0;
   double scale = 1;
   int jobs = 0;
+  CameraArguments view;
 };
 
 int map_number(const Pack& pack, const std::string& name) {
@@ -110,6 +112,13 @@ RenderTarget target_for(const std::string& file, const PackedMap& map, const std
 
 int run_render(const RenderArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
+  if (arguments.view.camera) {
+    const Pack pack = read_pack(arguments.pack);
+    const int map = map_number(pack, arguments.map);
+    const RenderTarget target =
+        target_for(arguments.output, pack.maps[static_cast<std::size_t>(map)], arguments.encoding);
+    return render_camera(arguments.view, pack, map, target, arguments.filter, arguments.output, console);
+  }
   const Filter filter = filter_of(arguments.filter);
   std::optional<VirtualRect> rect;
   if (arguments.rect) rect = parsed_rect(*arguments.rect);
@@ -156,7 +165,8 @@ Action declare_render(CLI::App& app) {
       ->type_name("X,Y,W,H");
   app.add_option("--level", a->level, "mip level, 0 the finest (default 0)")->type_name("L");
   app.add_option("--filter", a->filter,
-                 "nearest, bilinear or trilinear, which reads the level that fits the scale (default)")
+                 "nearest, bilinear or trilinear, which reads the level that fits the scale (default); for "
+                 "camera views trilinear or anisotropic")
       ->type_name("NAME");
   app.add_option("--scale", a->scale,
                  "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")
@@ -165,15 +175,20 @@ Action declare_render(CLI::App& app) {
                  "srgb or linear (default: that of the map; in EXR linear, in PNG of float color srgb)")
       ->type_name("NAME");
   add_jobs_option(app, a->jobs);
-  return [a](Console& console) { return run_render(*a, console); };
+  add_camera_options(app, a->view);
+  return [a, &app](Console& console) {
+    (a->view.camera ? refuse_window_options : refuse_camera_options)(app);
+    return run_render(*a, console);
+  };
 }
 
 } // namespace
 
 Verb render_verb() {
-  return {"render", "render a window of the virtual texture, at any level and scale",
+  return {"render", "render a window of the virtual texture, or a view of it in perspective",
           "  tilepack render gravel.pack -o gravel.png\n"
-          "  tilepack render gravel.pack -o far.png --rect=-512,0,4096,4096 --scale 0.25\n",
+          "  tilepack render gravel.pack -o far.png --rect=-512,0,4096,4096 --scale 0.25\n"
+          "  tilepack render gravel.pack -o view.png --camera 0,2,0,0,0,-6,0,1,0,60 --size 1920x1080\n",
           declare_render};
 }
 

@@ -13,8 +13,8 @@ constexpr double fade_levels = 2;
 
 // The mean of the coarsest level in linear light, colors weighed by alpha as the sampler does.
 std::array<double, 4> mean_of(const Pack& pack, int map) {
-  const PackTexels texels(pack, map, 1 << 20);
-  const int level = texels.levels() - 1;
+  const int level = static_cast<int>(pack.maps[static_cast<std::size_t>(map)].levels.size()) - 1;
+  const PackTexels texels(pack, map, level, level);
   const Size tile = texels.tile_size(level);
   const auto channels = static_cast<std::size_t>(texels.channels());
   const int width = tile.width * pack.layout.columns, height = tile.height * pack.layout.rows;
