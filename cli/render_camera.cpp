@@ -8,7 +8,7 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -54,11 +54,10 @@ std::vector<float> parsed_background(const std::string& text) {
 
 std::string text_of(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad()) {
+  if (!stream.is_open() || std::filesystem::is_directory(file)) {
     throw Error(ErrorKind::cannot_read, file, "can't be read; give a Wavefront OBJ file");
   }
-  return text;
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 SpanPrecision precision_of(const std::string& name) {
