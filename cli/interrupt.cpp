@@ -21,6 +21,8 @@ void watch_interrupts() {
     // A program started with the signal ignored (nohup, a background job) keeps ignoring it.
     if (std::signal(signal, note_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
+  // A file past the limit of `ulimit -f` is then a failed write like any other, with its message.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() {

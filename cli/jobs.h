@@ -10,7 +10,7 @@ namespace tilepack::cli {
 /// Adds --jobs N, shared by the verbs that compute. Results never depend on it.
 inline void add_jobs_option(CLI::App& app, int& jobs) {
   app.add_option("--jobs", jobs, "threads, 1 to 1024; 0: as many as the machine has")
-      ->check(CLI::Range(0, 1024))
+      ->check(CLI::Range(0, 1024).description(""))
       ->type_name("N");
 }
 

@@ -72,6 +72,7 @@ int run_verb(const Verb& verb, std::vector<std::string> arguments, Console& cons
   CLI::App app(verb.summary + ".", "tilepack " + verb.name);
   app.footer("\nExample:\n" + verb.example);
   app.get_formatter()->column_width(34);
+  app.option_defaults()->take_last(); // scripts append to override; what collects says take_all itself
   app.add_flag("-q,--quiet", console.quiet, "no progress, notes and warnings");
   const Action action = verb.declare(app);
   try {

@@ -163,12 +163,12 @@ Action declare_bake(CLI::App& app) {
   }
   app.add_option("--encoding", arguments->encoding,
                  "how color samples are encoded; as their file says unless given")
-      ->check(CLI::IsMember({"srgb", "linear"}))
+      ->check(CLI::IsMember({"srgb", "linear"}).description(""))
       ->type_name("srgb|linear");
   app.add_option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
       ->type_name("FILE");
   app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
-      ->check(CLI::IsMember({"text", "json"}))
+      ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
   add_jobs_option(app, arguments->jobs);
   return [arguments](Console& console) { return run_bake(*arguments, console); };

@@ -1,0 +1,176 @@
+"""tilepack bake on good input: what it writes, that it repeats, presets, depths, dependency files."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import jsonschema
+
+from command import SOURCE, TILEPACK, CommandCase, float_exr
+
+SMALL = ("--tile-size", 16, "--effort", 0, "--virtual-size", 8)
+
+
+class Bake(CommandCase):
+    def bake(self, *arguments, sample=None, output="out", **options):
+        return self.run_tilepack("bake", sample or self.noise_png("sample.png"), "-o", output, *SMALL, *arguments,
+                                 **options)
+
+    def pack(self, output="out"):
+        return self.read_json(output + "/pack.json")
+
+    def test_writes_what_it_says(self):
+        done = self.bake("--report-format", "json")
+        report = json.loads(done.stdout)
+        self.assertEqual(sorted(report["files"]), sorted(self.contents("out")))
+        self.assertEqual(report["tiles"], 16)
+        self.assertIn("out: 16 tiles of 16 x 16 texels", self.bake().stdout)
+
+    def test_packs_follow_the_schema(self):
+        with open(os.path.join(SOURCE, "lib/pack/pack.schema.json"), encoding="utf-8") as stream:
+            schema = json.load(stream)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        kinds = [(), ("--mapping", "mix"), ("--mapping", "index"), ("--colors", "3x1", "--mips", "none"),
+                 ("--mips", "corners"), ("--tile-size", "12x20"), ("--format", "exr")]
+        for arguments in kinds:
+            with self.subTest(arguments):
+                self.bake(*arguments)
+                validator.validate(self.pack())
+
+    def test_schema_and_program_refuse_the_same(self):
+        with open(os.path.join(SOURCE, "lib/pack/pack.schema.json"), encoding="utf-8") as stream:
+            validator = jsonschema.Draft202012Validator(json.load(stream))
+        self.bake()
+        good = self.pack()
+        for place, value in [(("version",), 2), (("tile_size", 0), 0), (("maps", 0, "levels", 0, "file"), "../a"),
+                             (("mapping", "table", 0), -1), (("colors", "vertical"), 9), (("mips", "filter"), "sinc"),
+                             (("maps", 0, "extra"), 1), (("tiles", 0, "nw"), 0), (("generator", "seed"), 2**53)]:
+            with self.subTest(place):
+                changed = json.loads(json.dumps(good))
+                parent = changed
+                for step in place[:-1]:
+                    parent = parent[step]
+                parent[place[-1]] = value
+                self.assertFalse(validator.is_valid(changed))
+                self.write_json("out/pack.json", changed)
+                # Writing over a pack reads it first.
+                self.refused("bake", "sample.png", "-o", "out", *SMALL, code=4, saying="no readable tile pack")
+
+    def test_same_bytes_for_any_number_of_threads_and_run(self):
+        self.bake("--jobs", 1, output="one")
+        self.bake("--jobs", 4, output="four")
+        self.bake("--jobs", 4, output="again")
+        self.assertEqual(self.contents("one"), self.contents("four"))
+        self.assertEqual(self.contents("again"), self.contents("four"))
+        self.bake("--seed", 1, output="other")
+        self.assertNotEqual(self.contents("one")["color_0.png"], self.contents("other")["color_0.png"])
+
+    def test_nothing_of_the_machine_is_recorded(self):
+        self.bake(output="plain")
+        os.mkdir(self.path("deep"))
+        self.bake(sample=self.noise_png("deep/sample.png"), output="deep/out")
+        self.assertEqual(self.contents("plain"), self.contents("deep/out"))
+
+    def test_another_pack_is_replaced_and_other_files_stay(self):
+        self.bake("--format", "exr", "--mapping", "index")
+        self.write("out/notes.txt", "mine")
+        self.bake()
+        self.bake(output="fresh")
+        self.assertEqual(self.contents("out"), {**self.contents("fresh"), "notes.txt": b"mine"})
+
+    def test_depth_follows_the_sample(self):
+        for bits, depth in ((8, "u8"), (16, "u16")):
+            for channels in (1, 2, 3, 4):
+                with self.subTest(bits=bits, channels=channels):
+                    self.bake(sample=self.noise_png("s.png", 48, 40, channels, bits))
+                    made = self.pack()["maps"][0]
+                    self.assertEqual((made["depth"], made["channels"]), (depth, channels))
+        self.write("s.exr", float_exr(48, 40, lambda x, y: (x * 7 + y * y) % 31 / 8.0))
+        self.bake(sample="s.exr")
+        made = self.pack()["maps"][0]
+        self.assertEqual((made["depth"], made["encoding"]), ("f32", "linear"))
+        self.bake("--depth", "u16", sample="s.exr")
+        self.assertEqual(self.pack()["maps"][0]["encoding"], "srgb")
+
+    def test_encoding_can_be_asked_for(self):
+        self.bake("--encoding", "linear")
+        self.assertEqual(self.pack()["maps"][0]["encoding"], "linear")
+
+    def test_maps_stay_together(self):
+        normal = self.noise_png("n.png", seed=2)
+        rough = self.noise_png("r.png", channels=1, seed=3)
+        self.bake("--map", f"normal={normal}", "--map", f"roughness={rough}", "--map", f"wet:data={rough}")
+        made = self.pack()["maps"]
+        self.assertEqual([(m["name"], m["role"]) for m in made],
+                         [("color", "color"), ("normal", "normal"), ("roughness", "roughness"), ("wet", "data")])
+        files = self.contents("out")
+        self.assertEqual(files["roughness_0.png"], files["wet_0.png"])
+
+    def test_tile_sizes_that_are_no_power_of_two(self):
+        for size, levels in (("12", 3), ("20x12", 3), ("15", 1), ("24x16", 4)):
+            with self.subTest(size):
+                self.bake("--tile-size", size)
+                self.assertEqual(self.pack()["mips"]["tile_levels"], levels)
+
+    def test_every_preset_bakes(self):
+        listing = self.run_tilepack("bake", "--list-presets").stdout
+        names = re.findall(r"^(\S+)$", listing, re.MULTILINE)
+        self.assertGreaterEqual(len(names), 5)
+        for name in names:
+            with self.subTest(name):
+                self.run_tilepack("bake", self.noise_png("sample.png", 96, 96), "-o", name, "--preset", name,
+                                  "--tile-size", 24, "--effort", 0, "--guard", 2)
+                self.assertEqual(self.pack(name)["tile_size"], [24, 24])
+
+    def test_flags_override_presets_and_files_are_presets(self):
+        self.write_json("mine.json", {"purpose": "a test", "cost": "nothing", "seed": 5, "colors": "1x3"})
+        self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", *SMALL, "--preset", "mine.json", "--seed", 6)
+        self.assertEqual(self.pack()["generator"]["seed"], 6)
+        self.assertEqual(self.pack()["colors"], {"horizontal": 1, "vertical": 3})
+
+    def test_depfile_names_inputs_escaped(self):
+        sample = self.noise_png("my $ample #1.png")
+        self.bake("--depfile", "out.d", sample=sample)
+        with open(self.path("out.d"), encoding="utf-8") as stream:
+            rule = stream.read()
+        self.assertEqual(rule, "out/pack.json: \\\n  my\\ $$ample\\ \\#1.png\n\nmy\\ $$ample\\ \\#1.png:\n")
+
+    def test_make_reads_the_depfile(self):
+        sample = self.noise_png("my $ample #1.png")
+        self.bake("--depfile", "out.d", sample=sample)
+        self.write("Makefile", "all: out/pack.json\ninclude out.d\nout/pack.json:\n\t@echo rebuilt\n")
+        try:
+            make = lambda: subprocess.run(["make", "-s"], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(make().stdout, "", make().stderr)
+        except FileNotFoundError:
+            self.skipTest("make is not installed")
+        os.utime(self.path(sample), (2**31, 2**31))
+        self.assertEqual(make().stdout, "rebuilt\n")
+
+    def test_quiet_and_no_terminal_mean_no_progress(self):
+        self.assertEqual(self.bake("--quiet").stderr, "")
+        self.assertEqual(len(self.bake().stderr.splitlines()), 1)
+
+    def test_an_interrupt_leaves_a_whole_pack_or_nothing(self):
+        sample = self.noise_png("sample.png", 128, 128)
+        for wait in (0.0, 0.2, 0.6):
+            process = subprocess.Popen(
+                [TILEPACK, "bake", sample, "-o", "out", "--tile-size", "32", "--colors", "4", "--effort", "9"],
+                cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(wait)
+            process.send_signal(signal.SIGINT)
+            code = process.wait()
+            if code == 0:
+                self.assertIn("out/pack.json", self.contents())
+            else:
+                self.assertEqual(code, -signal.SIGINT)
+                self.assertEqual(sorted(self.contents()), ["sample.png"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,51 @@
+"""Bad samples to bake: each with its exit code, one clear message, and nothing left behind."""
+
+import math
+import os
+import unittest
+
+from command import CommandCase, float_exr
+
+SMALL = ("--tile-size", 16, "--effort", 0, "--virtual-size", 8)
+CANNOT_READ, INVALID = 2, 3
+
+
+class Samples(CommandCase):
+    def bake_refused(self, sample, code, saying=()):
+        return self.refused("bake", sample, "-o", "out", *SMALL, code=code, saying=saying)
+
+    def test_files_that_are_no_images(self):
+        self.bake_refused("missing.png", CANNOT_READ, "missing.png")
+        self.bake_refused(self.write("empty.png", ""), CANNOT_READ, "empty.png")
+        self.bake_refused(self.write("text.png", "this is no image\n" * 100), CANNOT_READ, "text.png")
+        self.bake_refused(self.write("no_suffix", b"\0" * 1000), CANNOT_READ, "no_suffix")
+
+    def test_truncated_files(self):
+        self.noise_png("whole.png")
+        whole = self.contents()["whole.png"]
+        for share in (0.01, 0.2, 0.5, 0.99):
+            with self.subTest(share):
+                self.bake_refused(self.write("cut.png", whole[:int(len(whole) * share)]), CANNOT_READ, "cut.png")
+        exr = float_exr(64, 64, lambda x, y: x * 0.1)
+        self.bake_refused(self.write("cut.exr", exr[:len(exr) // 2]), CANNOT_READ, "cut.exr")
+
+    def test_samples_too_small(self):
+        self.bake_refused(self.noise_png("dot.png", 1, 1), INVALID, "1 x 1")
+        message = self.bake_refused(self.noise_png("small.png", 12, 64), INVALID, "12 x 64")
+        # The message says what would fit, and it does.
+        self.assertRegex(message, r"largest|fits|would fit|at most")
+
+    def test_values_that_are_no_numbers(self):
+        for value in (math.nan, math.inf, -math.inf):
+            with self.subTest(value):
+                exr = float_exr(64, 64, lambda x, y: value if (x, y) == (5, 7) else 0.5)
+                self.bake_refused(self.write("bad.exr", exr), INVALID, "(5, 7)")
+
+    def test_a_folder_or_a_device_is_no_sample(self):
+        os.mkdir(self.path("folder"))
+        self.refused("bake", "folder", "-o", "out", code=CANNOT_READ)
+        self.refused("bake", "/dev/null", "-o", "out", code=CANNOT_READ)
+
+
+if __name__ == "__main__":
+    unittest.main()
