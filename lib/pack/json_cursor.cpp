@@ -64,8 +64,11 @@ JsonCursor JsonCursor::parse(std::string_view text, const std::string& file) {
   try {
     document->root = json::parse(text, MemberNames(file));
   } catch (const json::exception& error) {
-    const std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line 3, …"
+    std::string what = error.what(); // "[json.exception.parse_error.101] parse error at line 3, …"
     const std::size_t prefix = what.find("] ");
+    // It quotes the text it stumbled over, which may be anything.
+    for (char& c : what)
+      if (c < ' ' || c > '~') c = '?';
     throw Error(ErrorKind::invalid_content, file,
                 "is no valid JSON: " + (prefix == std::string::npos ? what : what.substr(prefix + 2)));
   }

@@ -66,7 +66,8 @@ TEST_CASE("documents that readers could take differently are refused", "[pack]")
   CHECK_THAT(fault([] { parsed("{\"a\": 1,}"); }), Contains("no valid JSON"));
   CHECK_THAT(fault([] { parsed("{} {}"); }), Contains("no valid JSON"));
   CHECK_THROWS_AS(parsed(""), Error);
-  CHECK_THROWS_AS(parsed("{\"a\": \"\xff\"}"), Error);
+  const std::string message = fault([] { parsed("{\"a\": \"\xff\x1b\"}"); });
+  CHECK(message.find_first_of("\xff\x1b") == std::string::npos);
   const std::string deep(1'000'000, '[');
   CHECK_THAT(fault([&] { parsed(deep); }), Contains("nested deeper"));
 }
