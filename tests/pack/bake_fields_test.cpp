@@ -45,6 +45,7 @@ const std::map<std::string, Values> values_of_fields{
     {"layout", {{"tile-index", "de-bruijn", "rotated", "array"}, {"debruijn", ""}}},
     {"corner-pack", {{"true", "false"}, {"yes", "1", ""}}},
     {"mips", {{"none", "box", "edges", "corners", "least-squares"}, {"least_squares", "edge"}}},
+    {"jump-weight", {{"0", "1000"}, {"-1", "1001", "1.5"}}},
     {"mapping", {{"permutation", "mix", "index"}, {"hash"}}},
     {"virtual-size", {{"1", "2147483648", "5x7"}, {"0", "2147483649", "-1x4"}}},
     {"format", {{"png", "exr"}, {"jpg", "PNG"}}},
