@@ -104,10 +104,14 @@ OIIO::ImageSpec spec_of(Size size, int channels, Depth depth, Encoding encoding)
   spec.attribute("oiio:UnassociatedAlpha", 1); // no multiplication by alpha on the way
   if (is_integer(depth)) {
     if (encoding == Encoding::srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("png:compressionLevel", 4);
+    // Photographs, 1200 x 1200 RGB, processor time and size by level: 8 bits 0.15 s 2.91 MB at 1, 0.23 s 2.97
+    // MB at 4, 0.32 s 2.95 MB at 6; 16 bits 0.23 s 3.90 MB, 0.36 s 3.55 MB, 0.96 s 3.41 MB.
+    spec.attribute("png:compressionLevel", 1);
   } else {
     spec.attribute("oiio:ColorSpace", "Linear");
-    spec.attribute("compression", "zip");
+    // The same photographs: half 0.17 s 3.20 MB with piz, 0.46 s 5.33 MB with zip; float 0.28 s 7.3 MB, 0.83
+    // s 10.1 MB.
+    spec.attribute("compression", "piz");
     spec.attribute("DateTime", ""); // else the time of writing
   }
   return spec;
