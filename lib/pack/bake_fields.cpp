@@ -52,6 +52,8 @@ struct Choice {
   const char* name;
   Enum value;
 };
+template <typename Enum>
+Choice(const char*, Enum) -> Choice<Enum>; // clang 14 deduces none for aggregates
 
 constexpr std::array colorings{Choice{"edge", Coloring::edge}, Choice{"corner", Coloring::corner}};
 constexpr std::array interiors{Choice{"patch", Interior::patch}, Choice{"quilt", Interior::quilt}};
