@@ -1,6 +1,6 @@
 #include "tilepack/error/error.h"
-#include "tilepack/image/file_format.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/image/image_format.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -59,8 +59,8 @@ Depth depth_of(const Source& source) {
   }
 }
 
-Encoding encoding_of(const Source& source, FileFormat format) {
-  if (format == FileFormat::exr) return Encoding::linear;
+Encoding encoding_of(const Source& source, ImageFormat format) {
+  if (format == ImageFormat::exr) return Encoding::linear;
   const std::string space = source.spec.get_string_attribute("oiio:ColorSpace");
   if (OIIO::Strutil::iequals(space, "linear")) return Encoding::linear;
   if (!space.empty()) return Encoding::srgb; // also "Gamma2.2", which sRGB is close to
@@ -68,7 +68,7 @@ Encoding encoding_of(const Source& source, FileFormat format) {
                                                                                 : Encoding::srgb;
 }
 
-Source open(const std::filesystem::path& file, FileFormat format) {
+Source open(const std::filesystem::path& file, ImageFormat format) {
   Source source;
   source.name = file.string();
   // By format, not by name: a PNG called "photo.jpg" is read, and OpenImageIO's formats without a file
@@ -216,12 +216,12 @@ auto guarded(const std::filesystem::path& file, F&& f) {
 } // namespace
 
 ImageHeader read_image_header(const std::filesystem::path& file) {
-  return guarded(file, [&] { return open(file, file_format(file)).header; });
+  return guarded(file, [&] { return open(file, image_format(file)).header; });
 }
 
 ImageFile read_image(const std::filesystem::path& file, std::optional<Encoding> asked) {
   return guarded(file, [&] {
-    const FileFormat format = file_format(file);
+    const ImageFormat format = image_format(file);
     check_complete(file, format);
     Source source = open(file, format);
     Image image = decode(source);

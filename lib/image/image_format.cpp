@@ -1,4 +1,4 @@
-#include "tilepack/image/file_format.h"
+#include "tilepack/image/image_format.h"
 
 #include "tilepack/error/error.h"
 
@@ -276,21 +276,21 @@ private:
 
 } // namespace
 
-std::string_view name_of(FileFormat format) {
+std::string_view name_of(ImageFormat format) {
   switch (format) {
-  case FileFormat::png:
+  case ImageFormat::png:
     return "png";
-  case FileFormat::jpeg:
+  case ImageFormat::jpeg:
     return "jpeg";
-  case FileFormat::tiff:
+  case ImageFormat::tiff:
     return "tiff";
-  case FileFormat::exr:
+  case ImageFormat::exr:
     break;
   }
   return "openexr";
 }
 
-FileFormat file_format(const std::filesystem::path& path) {
+ImageFormat image_format(const std::filesystem::path& path) {
   const FileBytes file(path);
   if (file.size() == 0) throw Error(ErrorKind::cannot_read, path.string(), "is empty (0 bytes)");
   std::array<unsigned char, 8> head{};
@@ -299,26 +299,26 @@ FileFormat file_format(const std::filesystem::path& path) {
     return std::equal(magic.begin(), magic.end(), head.begin(),
                       [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
   };
-  if (head == png_signature) return FileFormat::png;
-  if (begins("\xFF\xD8\xFF")) return FileFormat::jpeg;
-  if (begins("\x76\x2F\x31\x01")) return FileFormat::exr;
+  if (head == png_signature) return ImageFormat::png;
+  if (begins("\xFF\xD8\xFF")) return ImageFormat::jpeg;
+  if (begins("\x76\x2F\x31\x01")) return ImageFormat::exr;
   for (const std::string_view magic : {std::string_view("II\x2A\0", 4), std::string_view("MM\0\x2A", 4),
                                        std::string_view("II\x2B\0", 4), std::string_view("MM\0\x2B", 4)})
-    if (begins(magic)) return FileFormat::tiff;
+    if (begins(magic)) return ImageFormat::tiff;
   throw Error(ErrorKind::cannot_read, path.string(),
               "is no PNG, JPEG, TIFF or EXR image, by its first bytes; convert it to one of these");
 }
 
-void check_complete(const std::filesystem::path& path, FileFormat format) {
+void check_complete(const std::filesystem::path& path, ImageFormat format) {
   const FileBytes file(path);
   switch (format) {
-  case FileFormat::png:
+  case ImageFormat::png:
     return check_png(file);
-  case FileFormat::jpeg:
+  case ImageFormat::jpeg:
     return check_jpeg(file);
-  case FileFormat::tiff:
+  case ImageFormat::tiff:
     return TiffWalk(file).check();
-  case FileFormat::exr:
+  case ImageFormat::exr:
     break;
   }
 }

@@ -6,20 +6,20 @@
 namespace tilepack {
 
 /// The image formats that are read.
-enum class FileFormat { png, jpeg, tiff, exr };
+enum class ImageFormat { png, jpeg, tiff, exr };
 
 /// The name by which OpenImageIO knows the format: "png", "jpeg", "tiff", "openexr".
-std::string_view name_of(FileFormat format);
+std::string_view name_of(ImageFormat format);
 
 /// The format of `file` by its first bytes. Throws Error (cannot_read) if it is missing, no regular file,
 /// unreadable, empty or none of the formats.
-FileFormat file_format(const std::filesystem::path& file);
+ImageFormat image_format(const std::filesystem::path& file);
 
 /// Throws Error (cannot_read) if bytes are missing from `file` or, for PNG, changed.
 ///
 /// Decoders fill up what a cut file lacks with grey, some without a word, so the structure is walked before
 /// decoding: PNG chunks with their checksums up to IEND, JPEG segments up to the end marker, TIFF directories
 /// with the strips and tiles they point to. EXR files hold a table of their blocks which the decoder checks.
-void check_complete(const std::filesystem::path& file, FileFormat format);
+void check_complete(const std::filesystem::path& file, ImageFormat format);
 
 } // namespace tilepack
