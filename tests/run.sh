@@ -1,0 +1,18 @@
+#!/bin/sh
+# Installs what is missing, builds with g++ and with clang under sanitizers, and runs every test in both.
+# Run it from anywhere, as root or with sudo; a second run builds only what changed.
+set -eu
+cd "$(dirname "$0")/.."
+. samples/install_packages.sh
+install_packages test
+
+# The build folders are used by samples/quickstart.sh too, which needs no tests.
+for preset in release sanitize; do
+  cmake --preset "$preset" -D TILEPACK_TESTS=ON >/dev/null
+  cmake --build --preset "$preset"
+done
+
+# The first failure ends this, so that the last line is always the verdict.
+for preset in release sanitize; do
+  ctest --preset "$preset" --parallel "$(nproc)"
+done
