@@ -197,7 +197,7 @@ TEST_CASE("a header that promises more than the file can hold is refused before 
   write_image(folder.path / "a.exr", noise({64, 64}, 3), Depth::f16, Encoding::linear);
   std::string exr = bytes_of(folder.path / "a.exr");
   const std::size_t window = exr.find("dataWindow") + 11 + 6 + 4;
-  exr.replace(window + 8, 8, std::string("\xFF\xFF\0\0\xFF\xFF\0\0", 8));
+  exr.replace(window + 8, 8, std::string("\xFF\x1F\0\0\xFF\x1F\0\0", 8));
   put(file, exr);
   CHECK_THAT(reading_error(ErrorKind::cannot_read, file), Contains("truncated"));
 }

@@ -108,7 +108,8 @@ TEST_CASE("D = 0 is a constant, c = 0 is straight") {
 }
 
 TEST_CASE("hostile coefficients give defined spans") {
-  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  constexpr double inf = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double huge = std::numeric_limits<double>::max(),
                    tiny = std::numeric_limits<double>::denorm_min();
   for (double bad : {inf, -inf, nan}) {
