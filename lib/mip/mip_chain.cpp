@@ -1,49 +1,22 @@
 #include "tilepack/mip/mip_chain.h"
 
+#include "tilepack/mip/alpha_coverage.h"
 #include "tilepack/mip/downsample.h"
 #include "tilepack/mip/least_squares.h"
+#include "tilepack/mip/normal_variance.h"
 #include "tilepack/mip/shared_border.h"
+#include "tilepack/mip/value_space.h"
 
 #include <tbb/parallel_for.h>
 
-#include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace tilepack {
 namespace {
 
 std::size_t as_size(int i) {
   return static_cast<std::size_t>(i);
-}
-
-// Values that may be averaged: linear light for color, vectors for normals, plain values for the rest.
-Image decoded(const Image& tile, const TileMap& map) {
-  if (map.role == Role::color) return to_linear(tile, map.encoding);
-  if (map.role != Role::normal) return tile;
-  Image result = tile;
-  for (float& v : result.data()) v = v * 2.0f - 1.0f;
-  return result;
-}
-
-// The mean of unit vectors is shorter than one: it is kept so through the chain, else each level would weigh
-// its children differently from their area, and made a unit vector here, where a level is stored.
-Image encoded(Image tile, const TileMap& map) {
-  if (map.role == Role::color) return from_linear(tile, map.encoding);
-  if (map.role != Role::normal) return tile;
-  const std::size_t channels = as_size(tile.channels());
-  auto& values = tile.data();
-  if (channels >= 3)
-    for (std::size_t i = 0; i < values.size(); i += channels) {
-      float* n = &values[i];
-      const double length = std::sqrt(static_cast<double>(n[0]) * n[0] + static_cast<double>(n[1]) * n[1] +
-                                      static_cast<double>(n[2]) * n[2]);
-      if (length > 0)
-        for (int c = 0; c < 3; ++c) n[c] = static_cast<float>(n[c] / length);
-      else
-        n[2] = 1.0f;
-    }
-  for (float& v : values) v = v * 0.5f + 0.5f;
-  return tile;
 }
 
 // The mean over the tiles of a group goes to all of them as one value, so they are equal bit for bit,
@@ -80,6 +53,30 @@ void sanitize(const TileColors& colors, Size size, MipMode mode, Weighting weigh
   const std::vector<SharedTexels> groups = shared_border(colors, size, mode);
   tbb::parallel_for(std::size_t{0}, groups.size(),
                     [&](std::size_t i) { share(groups[i], weighting, tiles); });
+}
+
+// level → tile id → values that may be averaged further; level 0 is left out. Means of unit vectors keep
+// their length here, else each level would weigh its children differently from their area.
+using Levels = std::vector<std::vector<Image>>;
+
+Levels box_levels(const TileMap& map, int levels) {
+  const Weighting weighting = weighting_of(map);
+  Levels boxes(as_size(levels));
+  for (std::size_t level = 1; level < boxes.size(); ++level) boxes[level].resize(map.tiles.size());
+  tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
+    boxes[1][id] = halved(decoded(map.tiles[id], map), weighting);
+    for (std::size_t level = 2; level < boxes.size(); ++level)
+      boxes[level][id] = halved(boxes[level - 1][id], weighting);
+  });
+  return boxes;
+}
+
+// The normals whose spread the roughness `map` takes up, or null.
+const TileMap* normals_for(const TileMap& map, const TileSet& set, const MipOptions& options) {
+  if (map.role != Role::roughness || !options.roughness_from_normals) return nullptr;
+  for (const TileMap& other : set.maps)
+    if (other.role == Role::normal && other.tiles.front().channels() >= 3) return &other;
+  return nullptr;
 }
 
 } // namespace
@@ -121,35 +118,41 @@ bool exact_through_guard(int guard, int level) {
 std::vector<TileMap> mip_chain(const TileSet& set, int map_index, const MipOptions& options,
                                const Layout* layout) {
   const TileMap& map = set.maps[as_size(map_index)];
-  const std::size_t tiles = map.tiles.size();
   const int levels = options.mode == MipMode::none ? 1 : level_count(set.tile_size);
-  const int channels = map.tiles.front().channels();
-  const Weighting weighting =
-      map.role == Role::color && channels % 2 == 0 ? Weighting::by_alpha : Weighting::plain;
-
   std::vector<TileMap> chain;
   for (int level = 0; level < levels; ++level)
-    chain.push_back({map.name, map.role, map.encoding, map.depth, std::vector<Image>(level > 0 ? tiles : 0)});
+    chain.push_back({map.name, map.role, map.encoding, map.depth, {}});
   chain.front().tiles = map.tiles;
   if (levels == 1) return chain;
 
-  tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
-    chain[1].tiles[id] = halved(decoded(map.tiles[id], map), weighting);
-    for (std::size_t level = 2; level < chain.size(); ++level)
-      chain[level].tiles[id] = halved(chain[level - 1].tiles[id], weighting);
-  });
+  Levels boxes = box_levels(map, levels);
+  if (const TileMap* normals = normals_for(map, set, options)) {
+    const Levels means = box_levels(*normals, levels);
+    tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
+      for (std::size_t level = 1; level < boxes.size(); ++level)
+        add_normal_variance(boxes[level][id], means[level][id]);
+    });
+  }
+  const Weighting weighting = weighting_of(map);
   const PackNeighbours neighbours = layout ? pack_neighbours(*layout) : PackNeighbours{};
   tbb::parallel_for(1, levels, [&](int level) {
     if (exact_through_guard(set.guard, level)) return;
-    std::vector<Image>& images = chain[as_size(level)].tiles;
+    std::vector<Image>& tiles = boxes[as_size(level)];
     if (options.mode == MipMode::least_squares)
-      fit_borders(set.tiles, neighbours, options.jump_weight, weighting, images);
+      fit_borders(set.tiles, neighbours, options.jump_weight, weighting, tiles);
     else
-      sanitize(set.tiles, level_size(set.tile_size, level), options.mode, weighting, images);
+      sanitize(set.tiles, level_size(set.tile_size, level), options.mode, weighting, tiles);
   });
-  tbb::parallel_for(std::size_t{0}, tiles * as_size(levels - 1), [&](std::size_t i) {
-    Image& tile = chain[1 + i / tiles].tiles[i % tiles];
-    tile = encoded(std::move(tile), map);
+  if (options.alpha_coverage > 0 && weighting == Weighting::by_alpha) {
+    const double threshold = options.alpha_coverage / 100.0;
+    const double coverage = alpha_coverage(map.tiles, threshold);
+    tbb::parallel_for(1, levels,
+                      [&](int level) { keep_alpha_coverage(boxes[as_size(level)], threshold, coverage); });
+  }
+  for (int level = 1; level < levels; ++level) chain[as_size(level)].tiles.resize(map.tiles.size());
+  tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
+    for (std::size_t level = 1; level < boxes.size(); ++level)
+      chain[level].tiles[id] = encoded(std::move(boxes[level][id]), map);
   });
   return chain;
 }

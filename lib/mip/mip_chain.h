@@ -24,6 +24,8 @@ std::string_view name_of(MipMode mode); ///< "none", "box", "edges", "corners", 
 struct MipOptions {
   MipMode mode = MipMode::edges;
   int jump_weight = 4; ///< least_squares: cost of a jump across a border against that of an error, 0..1000
+  bool roughness_from_normals = true; ///< roughness takes up the spread of normals that a level averages
+  int alpha_coverage = 0; ///< keep the share of texels whose alpha reaches this many percent; 0: don't
 };
 
 /// Number of levels of a tile, level 0 counted: halved as long as both sides are even; a 128² tile has 8
@@ -42,7 +44,8 @@ bool exact_through_guard(int guard, int level);
 ///
 /// Each level is a 2 × 2 box of the finer one *before* sanitizing and within one tile: of linear light
 /// weighted by alpha for Role::color, of vectors for normals (3 or 4 channels: the first three are the
-/// vector, renormalised), of the values as they are for the rest. Levels past the guard band are then
+/// vector, renormalised), of the values as they are for the rest. Roughness then takes up what the set's
+/// first normal map loses (mip/normal_variance.h). Levels past the guard band are then
 /// sanitized as `options` says (mip/shared_border.h tells what becomes equal). The values returned are
 /// encoded as level 0 is, and not yet rounded; texels made equal are equal in every bit. The result does not
 /// depend on the number of threads.
