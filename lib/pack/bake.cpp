@@ -19,7 +19,7 @@ bool is_integer(Depth depth) {
 }
 
 void check_options(const BakeOptions& o) {
-  if (o.format && o.depth && (*o.format == FileFormat::png) != is_integer(*o.depth))
+  if (o.format && o.depth && (*o.format == PackFormat::png) != is_integer(*o.depth))
     throw Error(
         ErrorKind::usage, "--depth",
         fmt::format("'{}' can't be stored in the format asked for; png holds u8 and u16, exr f16 and f32",
@@ -60,8 +60,8 @@ void check_samples(std::span<const SampleMap> samples) {
 
 Depth stored_depth(Depth sample, const BakeOptions& options) {
   if (options.depth) return *options.depth;
-  if (options.format == FileFormat::png && !is_integer(sample)) return Depth::u16;
-  if (options.format == FileFormat::exr && is_integer(sample)) return Depth::f16;
+  if (options.format == PackFormat::png && !is_integer(sample)) return Depth::u16;
+  if (options.format == PackFormat::exr && is_integer(sample)) return Depth::f16;
   return sample;
 }
 

@@ -10,7 +10,7 @@
 namespace tilepack {
 
 /// The image files a pack may be made of: PNG holds u8 and u16, EXR f16 and f32.
-enum class FileFormat { png, exr };
+enum class PackFormat { png, exr };
 
 /// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
 /// keys of a preset: see pack/bake_fields.h, which holds their names, ranges and help.
@@ -22,7 +22,7 @@ struct BakeOptions {
   MipOptions mips;
   MappingKind mapping = MappingKind::permutation;
   VirtualSize virtual_size{256, 256};
-  std::optional<FileFormat> format; ///< of all maps; unset: what the depth asks for
+  std::optional<PackFormat> format; ///< of all maps; unset: what the depth asks for
   std::optional<Depth> depth; ///< of all maps; unset: each map keeps its own, or the nearest of `format`
 };
 

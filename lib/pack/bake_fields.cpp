@@ -65,7 +65,7 @@ constexpr std::array mip_modes{Choice{"none", MipMode::none}, Choice{"box", MipM
                                Choice{"least-squares", MipMode::least_squares}};
 constexpr std::array mappings{Choice{"permutation", MappingKind::permutation},
                               Choice{"mix", MappingKind::mix}, Choice{"index", MappingKind::index}};
-constexpr std::array formats{Choice{"png", FileFormat::png}, Choice{"exr", FileFormat::exr}};
+constexpr std::array formats{Choice{"png", PackFormat::png}, Choice{"exr", PackFormat::exr}};
 constexpr std::array depths{Choice{"u8", Depth::u8}, Choice{"u16", Depth::u16}, Choice{"f16", Depth::f16},
                             Choice{"f32", Depth::f32}};
 

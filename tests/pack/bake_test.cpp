@@ -75,7 +75,7 @@ TEST_CASE("threads do not change a pack, the seed does", "[pack]") {
 TEST_CASE("depth and format decide how maps are stored", "[pack]") {
   struct Case {
     Depth read;
-    std::optional<FileFormat> format;
+    std::optional<PackFormat> format;
     std::optional<Depth> depth;
     Depth stored;
     Encoding color;
@@ -84,10 +84,10 @@ TEST_CASE("depth and format decide how maps are stored", "[pack]") {
       {Depth::u8, {}, {}, Depth::u8, Encoding::srgb},
       {Depth::u16, {}, {}, Depth::u16, Encoding::srgb},
       {Depth::f16, {}, {}, Depth::f16, Encoding::linear},
-      {Depth::u8, FileFormat::exr, {}, Depth::f16, Encoding::linear},
-      {Depth::f32, FileFormat::png, {}, Depth::u16, Encoding::srgb},
+      {Depth::u8, PackFormat::exr, {}, Depth::f16, Encoding::linear},
+      {Depth::f32, PackFormat::png, {}, Depth::u16, Encoding::srgb},
       {Depth::u8, {}, Depth::f32, Depth::f32, Encoding::linear},
-      {Depth::u16, FileFormat::png, Depth::u8, Depth::u8, Encoding::srgb},
+      {Depth::u16, PackFormat::png, Depth::u8, Depth::u8, Encoding::srgb},
   };
   for (const Case& c : cases) {
     BakeOptions options = small_options();
@@ -114,7 +114,7 @@ TEST_CASE("samples and options that can't be are refused", "[pack]") {
   options.layout = LayoutKind::de_bruijn;
   CHECK(fault({color}, options) == ErrorKind::usage);
   options = small_options();
-  options.format = FileFormat::png;
+  options.format = PackFormat::png;
   options.depth = Depth::f16;
   CHECK(fault({color}, options) == ErrorKind::usage);
   options = small_options();
