@@ -47,8 +47,10 @@ Field field(std::string name, VirtualSize window, int values, const std::functio
 std::vector<Field> fields(const Mapping& m, const ColorCounts& colors, VirtualSize window) {
   std::vector<Field> all;
   const bool by_corner = colors.corner > 0;
-  const int tiles = by_corner ? colors.corner * colors.corner * colors.corner * colors.corner
-                              : colors.horizontal * colors.horizontal * colors.vertical * colors.vertical;
+  int tiles = by_corner ? colors.corner * colors.corner * colors.corner * colors.corner
+                        : colors.horizontal * colors.horizontal * colors.vertical * colors.vertical;
+  if (m.kind == MappingKind::index) // of any set, complete or not
+    for (const int id : m.ids) tiles = std::max(tiles, id + 1);
   all.push_back(field("tiles", window, tiles, [&](int x, int y) { return tile_at(m, colors, x, y); }));
   Field& f = all.front();
   if (by_corner)
