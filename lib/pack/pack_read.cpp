@@ -1,7 +1,7 @@
 #include "tilepack/pack/pack_read.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/image/file_format.h"
+#include "tilepack/image/image_format.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/pack_json.h"
