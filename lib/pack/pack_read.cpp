@@ -41,7 +41,7 @@ std::string text_of(const fs::path& file) {
 
 // What pack.json announces, against the header of the file: checked before its texels take any memory.
 void check_header(const fs::path& file, Size size, int channels, std::span<const Depth> depths) {
-  check_complete(file, file_format(file)); // a decoder that finds a header cut complains on stderr
+  check_complete(file, image_format(file)); // a decoder that finds a header cut complains on stderr
   const ImageHeader header = read_image_header(file);
   const auto refuse = [&](const std::string& has, const std::string& announced) {
     throw Error(ErrorKind::invalid_content, file.string(),
