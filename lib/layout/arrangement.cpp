@@ -1,7 +1,9 @@
 #include "tilepack/layout/arrangement.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/rotated_lattice.h"
+#include "tilepack/layout/tile_index.h"
 #include "tilepack/tileset/border_colors.h"
 
 #include <fmt/format.h>
@@ -19,9 +21,9 @@ constexpr int unknown = -1;
 
 class Search {
 public:
-  Search(const TileColors& tiles, const RotatedScheme& scheme, int most_placements)
+  Search(const TileColors& tiles, const RotatedScheme& scheme, long long most_trials)
       : borders(border_colors(tiles)), neighbours(borders.size()), tile_at(borders.size(), unknown),
-        used(borders.size(), false), placements_left(most_placements) {
+        used(borders.size(), false), trials_left(most_trials) {
     const RotatedLattice lattice(scheme);
     for (int site = 0; site < lattice.sites(); ++site) {
       const int to_east = lattice.east_of(site);
@@ -36,7 +38,7 @@ public:
   Arrangement run() {
     if (!balanced()) return {Matching::none, {}};
     if (place_rest()) return {Matching::found, tile_at};
-    return {placements_left > 0 ? Matching::none : Matching::not_found, {}};
+    return {trials_left > 0 ? Matching::none : Matching::not_found, {}};
   }
 
 private:
@@ -74,7 +76,8 @@ private:
     return true;
   }
 
-  std::vector<int> candidates(int site) const {
+  std::vector<int> candidates(int site) {
+    trials_left -= static_cast<long long>(borders.size());
     std::vector<int> result;
     for (int tile = 0; tile < static_cast<int>(borders.size()); ++tile)
       if (!used[index(tile)] && fits(tile, site)) result.push_back(tile);
@@ -98,7 +101,7 @@ private:
     // The torus may be shifted so that tile 0 lies on any site: at the root one tile is enough.
     if (std::all_of(tile_at.begin(), tile_at.end(), [](int t) { return t == unknown; })) options.resize(1);
     for (const int tile : options) {
-      if (placements_left-- <= 0) return false;
+      if (trials_left <= 0) return false;
       tile_at[index(site)] = tile;
       used[index(tile)] = true;
       if (place_rest()) return true;
@@ -112,16 +115,33 @@ private:
   std::vector<std::array<int, 4>> neighbours; // by site
   std::vector<int> tile_at;                   // by site
   std::vector<bool> used;                     // by tile
-  int placements_left;
+  long long trials_left;
 };
+
+// Complete sets have known grids; empty if this isn't one.
+std::vector<int> complete_grid(const TileColors& tiles, const RotatedScheme& scheme) {
+  if (scheme.k != 0 || !is_complete_set(tiles)) return {};
+  const Layout layout = coloring_of(tiles) == Coloring::edge
+                            ? tile_index_layout(std::get<std::vector<EdgeTile>>(tiles))
+                            : de_bruijn_layout(std::get<std::vector<CornerTile>>(tiles));
+  if (layout.rows != scheme.n || layout.columns != scheme.n * scheme.squares) return {};
+  const RotatedLattice lattice(scheme);
+  std::vector<int> tile_on(layout.cells.size());
+  for (const Cell& cell : layout.cells)
+    tile_on[static_cast<std::size_t>(lattice.site_at({cell.column, cell.row}))] = cell.tile;
+  return tile_on;
+}
 
 } // namespace
 
-Arrangement matching_arrangement(const TileColors& tiles, const RotatedScheme& scheme, int most_placements) {
+Arrangement matching_arrangement(const TileColors& tiles, const RotatedScheme& scheme,
+                                 long long most_trials) {
   if (tile_count(tiles) != tile_count(scheme))
     throw Error(ErrorKind::internal, "matching_arrangement",
                 fmt::format("{} tiles for a scheme of {}", tile_count(tiles), tile_count(scheme)));
-  return Search(tiles, scheme, most_placements).run();
+  if (std::vector<int> known = complete_grid(tiles, scheme); !known.empty())
+    return {Matching::found, std::move(known)};
+  return Search(tiles, scheme, most_trials).run();
 }
 
 } // namespace tilepack

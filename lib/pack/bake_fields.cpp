@@ -65,7 +65,12 @@ constexpr std::array mip_modes{Choice{"none", MipMode::none}, Choice{"box", MipM
                                Choice{"least-squares", MipMode::least_squares}};
 constexpr std::array mappings{Choice{"permutation", MappingKind::permutation},
                               Choice{"mix", MappingKind::mix}, Choice{"index", MappingKind::index}};
-constexpr std::array formats{Choice{"png", PackFormat::png}, Choice{"exr", PackFormat::exr}};
+constexpr std::array tile_choices{Choice{"complete", TileChoice::complete},
+                                  Choice{"sequential", TileChoice::sequential}};
+constexpr std::array turn_filters{Choice{"bilinear", ResampleFilter::bilinear},
+                                  Choice{"bicubic", ResampleFilter::bicubic},
+                                  Choice{"lanczos", ResampleFilter::lanczos}};
+constexpr std::array formats{Choice{"png", FileFormat::png}, Choice{"exr", FileFormat::exr}};
 constexpr std::array depths{Choice{"u8", Depth::u8}, Choice{"u16", Depth::u16}, Choice{"f16", Depth::f16},
                             Choice{"f32", Depth::f32}};
 
@@ -131,6 +136,36 @@ void set_flag(bool& flag, const std::string& text) {
   flag = text == "true";
 }
 
+// A small set only goes with what can hold it, so these follow, as the layout follows the coloring.
+void set_tile_choice(BakeOptions& o, const std::string& text) {
+  o.set = chosen(tile_choices, text);
+  if (o.set != TileChoice::sequential) return;
+  o.layout = LayoutKind::rotated;
+  o.mapping = MappingKind::index;
+}
+
+// "3,1" or "3,1,2".
+void set_scheme(BakeOptions& o, const std::string& text) {
+  const auto refused = [&] { refuse(text, "N,K or N,K,2 with 1 <= N <= 256 and 0 <= K <= N"); };
+  std::array<std::int64_t, 3> part{0, 0, 1};
+  std::size_t count = 0;
+  for (std::size_t at = 0; at <= text.size() && count < 4; ++count) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    if (count == 3 || !parse_whole(std::string_view(text).substr(at, end - at), count == 1 ? 0 : 1,
+                                   count == 2 ? 2 : 256, part[count]))
+      refused();
+    at = end + 1;
+  }
+  if (count < 2 || part[1] > part[0]) refused();
+  o.scheme = RotatedScheme{static_cast<int>(part[0]), static_cast<int>(part[1]), static_cast<int>(part[2])};
+}
+
+std::string get_scheme(const BakeOptions& o) {
+  if (!o.scheme) return "";
+  const std::string both = fmt::format("{},{}", o.scheme->n, o.scheme->k);
+  return o.scheme->squares == 1 ? both : both + ",2";
+}
+
 void set_virtual_size(BakeOptions& o, const std::string& text) {
   const Extent e = extent(text, 1, std::int64_t{1} << 31);
   o.virtual_size = {e.width, e.height};
@@ -148,6 +183,9 @@ std::vector<BakeField> make_fields() {
        [](const O& o) { return name_in(colorings, o.synth.coloring); }},
       {"colors", Type::extent, "N|HxV",
        "colors of horizontal and vertical edges, 1 to 8, or of corners, 1 to 4", set_colors, get_colors},
+      {"set", Type::choice, alternatives(tile_choices),
+       "tiles made: every combination of colors, or two for each north and west color, for an index map",
+       set_tile_choice, [](const O& o) { return name_in(tile_choices, o.set); }},
       {"interior", Type::choice, alternatives(interiors),
        "how the inside of a tile is made: its own window of the sample, or the patches of its edges alone",
        [](O& o, const T& text) { o.synth.interior = chosen(interiors, text); },
@@ -167,6 +205,25 @@ std::vector<BakeField> make_fields() {
       {"layout", Type::choice, alternatives(layouts), "how tiles lie in the texture",
        [](O& o, const T& text) { o.layout = chosen(layouts, text); },
        [](const O& o) { return name_in(layouts, o.layout); }},
+      {"scheme", Type::choice, "N,K[,2]",
+       "rotated layout: N² + K² tiles in a square texture, or that twice; the best unless given", set_scheme,
+       get_scheme},
+      {"gutter", Type::integer, "N",
+       "rotated layout: texels round each tile; unless given, 0 where neighbours match and 2 elsewhere",
+       [](O& o, const T& text) { o.gutter = static_cast<int>(whole(text, 0, 4096)); },
+       [](const O& o) { return o.gutter ? fmt::format("{}", *o.gutter) : ""; }},
+      {"power-of-two", Type::flag, "true|false", "rotated layout: sides of the texture are powers of two",
+       [](O& o, const T& text) { set_flag(o.power_of_two, text); },
+       [](const O& o) { return std::string(o.power_of_two ? "true" : ""); }},
+      {"turn-filter", Type::choice, alternatives(turn_filters),
+       "rotated layout: how turned tiles are resampled",
+       [](O& o, const T& text) { o.turn_filter = chosen(turn_filters, text); },
+       [](const O& o) {
+         return o.layout == LayoutKind::rotated ? name_in(turn_filters, o.turn_filter) : "";
+       }},
+      {"border", Type::integer, "N", "array layout: texels round each tile, 0 or a power of two",
+       [](O& o, const T& text) { o.border = static_cast<int>(whole(text, 0, 2048)); },
+       [](const O& o) { return o.border > 0 ? fmt::format("{}", o.border) : ""; }},
       {"corner-pack", Type::flag, "true|false",
        "add a pack of the surroundings of tile corners (edge coloring)",
        [](O& o, const T& text) { set_flag(o.corner_pack, text); },

@@ -1,5 +1,7 @@
 #include "tilepack/tileset/tile_colors.h"
 
+#include <algorithm>
+
 namespace tilepack {
 
 std::vector<EdgeTile> complete_edge_set(int horizontal_colors, int vertical_colors) {
@@ -27,6 +29,30 @@ int id_in_complete_set(const EdgeTile& tile, int horizontal_colors, int vertical
 
 int id_in_complete_set(const CornerTile& tile, int corner_colors) {
   return ((tile.nw * corner_colors + tile.ne) * corner_colors + tile.sw) * corner_colors + tile.se;
+}
+
+ColorCounts color_counts(const TileColors& tiles) {
+  ColorCounts counts;
+  if (const auto* edges = std::get_if<std::vector<EdgeTile>>(&tiles))
+    for (const EdgeTile& t : *edges) {
+      counts.horizontal = std::max({counts.horizontal, t.north + 1, t.south + 1});
+      counts.vertical = std::max({counts.vertical, t.west + 1, t.east + 1});
+    }
+  else
+    for (const CornerTile& t : std::get<std::vector<CornerTile>>(tiles))
+      counts.corner = std::max({counts.corner, t.nw + 1, t.ne + 1, t.sw + 1, t.se + 1});
+  return counts;
+}
+
+bool is_complete_set(const TileColors& tiles) {
+  const ColorCounts k = color_counts(tiles);
+  const bool edge = coloring_of(tiles) == Coloring::edge;
+  // Counting first: the complete set of the colors at hand may be far larger than the set.
+  const long long complete = edge ? 1LL * k.horizontal * k.horizontal * k.vertical * k.vertical
+                                  : 1LL * k.corner * k.corner * k.corner * k.corner;
+  if (complete != tile_count(tiles)) return false;
+  return tiles == (edge ? TileColors(complete_edge_set(k.horizontal, k.vertical))
+                        : TileColors(complete_corner_set(k.corner)));
 }
 
 int tile_count(const TileColors& tiles) {

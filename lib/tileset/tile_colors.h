@@ -58,6 +58,13 @@ std::vector<CornerTile> complete_corner_set(int corner_colors);
 int id_in_complete_set(const EdgeTile& tile, int horizontal_colors, int vertical_colors);
 int id_in_complete_set(const CornerTile& tile, int corner_colors);
 
+/// The smallest counts that hold all colors of the tiles.
+ColorCounts color_counts(const TileColors& tiles);
+
+/// True for a complete set of these counts in its usual order, which is what lets a hash of colors find a
+/// tile.
+bool is_complete_set(const TileColors& tiles);
+
 int tile_count(const TileColors& tiles);
 Coloring coloring_of(const TileColors& tiles);
 

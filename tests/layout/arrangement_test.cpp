@@ -35,6 +35,14 @@ TEST_CASE("the complete set of two by two colors fits its torus") {
   check_agreement(tiles, {4, 0, 1}, result.tiles);
 }
 
+TEST_CASE("complete sets of three colors lie on their known grids") {
+  const std::vector<EdgeTile> tiles = complete_edge_set(3, 3);
+  const Arrangement result = matching_arrangement(tiles, {9, 0, 1});
+  REQUIRE(result.matching == Matching::found);
+  check_agreement(tiles, {9, 0, 1}, result.tiles);
+  CHECK(matching_arrangement(complete_corner_set(3), {9, 0, 1}).matching == Matching::found);
+}
+
 TEST_CASE("where colors can't agree the search says so") {
   // Five different tiles whose east colors don't balance their west colors.
   const std::vector<EdgeTile> unbalanced{
@@ -43,7 +51,7 @@ TEST_CASE("where colors can't agree the search says so") {
   // Balanced, but each tile only fits itself.
   const std::vector<EdgeTile> strangers{{0, 0, 0, 0}, {1, 1, 1, 1}, {2, 2, 2, 2}, {3, 3, 3, 3}, {4, 4, 4, 4}};
   CHECK(matching_arrangement(strangers, {2, 1, 1}).matching == Matching::none);
-  CHECK(matching_arrangement(complete_edge_set(2, 2), {4, 0, 1}, 3).matching == Matching::not_found);
+  CHECK(matching_arrangement(sequential_edge_set(3, 3), {3, 3, 1}, 300).matching == Matching::not_found);
   CHECK_THROWS_AS(matching_arrangement(complete_edge_set(2, 2), {2, 1, 1}), Error);
 }
 

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "tilepack/layout/layout.h"
+
+namespace tilepack {
+
+/// One tile a layer of a texture array. In the image of a level the layers lie below each other, tile 0 on
+/// top, so that its texels in file order are those of the array, layer by layer, as engines upload them.
+///
+///   ┌────────┐  layer 0: `border` texels of what may lie round tile 0 (see place_tiles), tile 0 in the
+///   middle ├────────┤  layer 1 └────────┘  …
+///
+/// With borders, bilinear filtering at a tile's border reads them instead of being clamped. All layers halve
+/// from level to level, and so does the border; the levels end with a border of one texel. `border` is 0 or a
+/// power of two, at most half the shorter side of the tile; Error (usage) otherwise, or for a tile count
+/// outside 1..65536.
+Layout array_layout(int tiles, Size tile_size, int border);
+
+} // namespace tilepack
