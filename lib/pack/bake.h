@@ -9,9 +9,6 @@
 
 namespace tilepack {
 
-/// The image files a pack may be made of: PNG holds u8 and u16, EXR f16 and f32.
-enum class PackFormat { png, exr };
-
 /// Which tiles of the colors asked for are made.
 enum class TileChoice {
   complete,   ///< every combination: (Kh · Kv)² edge-colored tiles, or K⁴ corner-colored ones

@@ -70,7 +70,7 @@ constexpr std::array tile_choices{Choice{"complete", TileChoice::complete},
 constexpr std::array turn_filters{Choice{"bilinear", ResampleFilter::bilinear},
                                   Choice{"bicubic", ResampleFilter::bicubic},
                                   Choice{"lanczos", ResampleFilter::lanczos}};
-constexpr std::array formats{Choice{"png", FileFormat::png}, Choice{"exr", FileFormat::exr}};
+constexpr std::array formats{Choice{"png", PackFormat::png}, Choice{"exr", PackFormat::exr}};
 constexpr std::array depths{Choice{"u8", Depth::u8}, Choice{"u16", Depth::u16}, Choice{"f16", Depth::f16},
                             Choice{"f32", Depth::f32}};
 
@@ -214,16 +214,14 @@ std::vector<BakeField> make_fields() {
        [](const O& o) { return o.gutter ? fmt::format("{}", *o.gutter) : ""; }},
       {"power-of-two", Type::flag, "true|false", "rotated layout: sides of the texture are powers of two",
        [](O& o, const T& text) { set_flag(o.power_of_two, text); },
-       [](const O& o) { return std::string(o.power_of_two ? "true" : ""); }},
+       [](const O& o) { return std::string(o.power_of_two ? "true" : "false"); }},
       {"turn-filter", Type::choice, alternatives(turn_filters),
        "rotated layout: how turned tiles are resampled",
        [](O& o, const T& text) { o.turn_filter = chosen(turn_filters, text); },
-       [](const O& o) {
-         return o.layout == LayoutKind::rotated ? name_in(turn_filters, o.turn_filter) : "";
-       }},
+       [](const O& o) { return name_in(turn_filters, o.turn_filter); }},
       {"border", Type::integer, "N", "array layout: texels round each tile, 0 or a power of two",
        [](O& o, const T& text) { o.border = static_cast<int>(whole(text, 0, 2048)); },
-       [](const O& o) { return o.border > 0 ? fmt::format("{}", o.border) : ""; }},
+       [](const O& o) { return fmt::format("{}", o.border); }},
       {"corner-pack", Type::flag, "true|false",
        "add a pack of the surroundings of tile corners (edge coloring)",
        [](O& o, const T& text) { set_flag(o.corner_pack, text); },

@@ -1,4 +1,7 @@
 #include "tilepack/error/error.h"
+#include "tilepack/image/wrap.h"
+#include "tilepack/layout/array_layout.h"
+#include "tilepack/layout/rotated_lattice.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/json_cursor.h"
 #include "tilepack/pack/pack_json.h"
@@ -6,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace tilepack {
@@ -83,37 +87,113 @@ TileColors read_tiles(const JsonCursor& list, Coloring coloring, const ColorCoun
 }
 
 // Cells stand in the order of the tiles' ids, each tile once: Layout relies on it.
-Layout read_layout(const JsonCursor& value, int tiles) {
-  value.only({"kind", "columns", "rows", "cells"});
-  Layout layout;
-  layout.kind = named(value.member("kind"), LayoutKind::array);
-  layout.columns = value.member("columns").small_integer(1, static_cast<int>(most_tiles));
-  layout.rows = value.member("rows").small_integer(1, static_cast<int>(most_tiles));
-  const JsonCursor cells = value.member("cells");
+template <typename ReadCell>
+void read_cells(const JsonCursor& cells, int tiles, ReadCell&& read_cell) {
   cells.array(static_cast<std::size_t>(tiles), static_cast<std::size_t>(tiles));
   for (int i = 0; i < tiles; ++i) {
     const JsonCursor cell = cells.item(static_cast<std::size_t>(i));
-    cell.only({"tile", "column", "row"});
-    layout.cells.push_back({cell.member("tile").small_integer(i, i),
-                            cell.member("column").small_integer(0, layout.columns - 1),
-                            cell.member("row").small_integer(0, layout.rows - 1)});
+    cell.member("tile").small_integer(i, i);
+    read_cell(i, cell);
   }
+}
+
+Layout read_grid(const JsonCursor& value, LayoutKind kind, int tiles) {
+  value.only({"kind", "columns", "rows", "cells"});
+  Layout layout;
+  layout.kind = kind;
+  layout.columns = value.member("columns").small_integer(1, static_cast<int>(most_tiles));
+  layout.rows = value.member("rows").small_integer(1, static_cast<int>(most_tiles));
+  read_cells(value.member("cells"), tiles, [&](int tile, const JsonCursor& cell) {
+    cell.only({"tile", "column", "row"});
+    layout.cells.push_back({tile, cell.member("column").small_integer(0, layout.columns - 1),
+                            cell.member("row").small_integer(0, layout.rows - 1)});
+  });
   return layout;
 }
 
-// A grid of tiles as one level stores it.
-struct Grid {
-  Size tile;
-  int columns;
-  int rows;
+Layout read_array(const JsonCursor& value, int tiles, Size tile_size) {
+  value.only({"kind", "layers", "border", "cells"});
+  value.member("layers").integer(tiles, tiles);
+  const JsonCursor border = value.member("border");
+  const int half = std::min(tile_size.width, tile_size.height) / 2;
+  const int texels = border.small_integer(0, half);
+  if ((texels & (texels - 1)) != 0) border.fail(fmt::format("{} is not 0 or a power of two", texels));
+  Layout layout = array_layout(tiles, tile_size, texels);
+  read_cells(value.member("cells"), tiles, [&](int tile, const JsonCursor& cell) {
+    cell.only({"tile", "layer"});
+    layout.cells[static_cast<std::size_t>(tile)].row = cell.member("layer").small_integer(0, tiles - 1);
+  });
+  return layout;
+}
+
+// Origin and angle follow from the scheme; a file where they differ was not written for this sampler.
+Layout read_rotated(const JsonCursor& value, int tiles, Size tile_size) {
+  value.only({"kind", "n", "k", "squares", "gutter", "size", "cells"});
+  constexpr int largest_n = 64; // most_tiles
+  constexpr int largest_side = 65536;
+  RotatedScheme scheme;
+  scheme.n = value.member("n").small_integer(1, largest_n);
+  scheme.k = value.member("k").small_integer(0, scheme.n);
+  scheme.squares = value.member("squares").small_integer(1, 2);
+  if (tile_count(scheme) != tiles)
+    value.fail(fmt::format("{} is a scheme for {} tiles, and the pack has {}", formula(scheme),
+                           tile_count(scheme), tiles));
+  if (tile_size.width != tile_size.height)
+    value.fail(fmt::format("tiles of {} x {} texels can't be turned; they must be square", tile_size.width,
+                           tile_size.height));
+  const RotatedLattice lattice(scheme);
+  Layout layout;
+  layout.kind = LayoutKind::rotated;
+  layout.columns = lattice.columns();
+  layout.rows = lattice.rows();
+  layout.rotated = {scheme, value.member("gutter").small_integer(0, tile_size.width),
+                    read_size(value.member("size"), largest_side)};
+  layout.cells.push_back({0, 0, 0});
+  const Size size = layout.rotated.size;
+  // The corner of the tile in a cell at (0, 0): what the gutter adds to every origin.
+  const Placement::Vector inset = placement(layout, 0, tile_size, 0).origin;
+  layout.cells.clear();
+  read_cells(value.member("cells"), tiles, [&](int tile, const JsonCursor& cell) {
+    cell.only({"tile", "origin", "angle"});
+    const JsonCursor angle = cell.member("angle");
+    if (std::fabs(angle.number(0, 45) - angle_in_degrees(scheme)) > 1e-6)
+      angle.fail(fmt::format("{} is not {}, the angle of {}", angle.shown(), angle_in_degrees(scheme),
+                             formula(scheme)));
+    const JsonCursor origin = cell.member("origin");
+    origin.array(2, 2);
+    const auto steps = [](double fraction, double inset_fraction, int count) {
+      const double exact = (fraction - inset_fraction) * count;
+      const double whole = std::floor(exact + 0.5);
+      return std::fabs(exact - whole) > 1e-6 ? -1 : wrapped(static_cast<int>(whole), count);
+    };
+    const int column = steps(origin.item(0).number(0, 1), inset.x / size.width, layout.columns);
+    const int row = steps(origin.item(1).number(0, 1), inset.y / size.height, layout.rows);
+    if (lattice.site_with(column, row) < 0)
+      origin.fail(fmt::format("{} is no place of the scheme {}", origin.shown(), formula(scheme)));
+    layout.cells.push_back({tile, column, row});
+  });
+  return layout;
+}
+
+Layout read_layout(const JsonCursor& value, int tiles, Size tile_size) {
+  const auto kind = named(value.member("kind"), LayoutKind::array);
+  if (kind == LayoutKind::rotated) return read_rotated(value, tiles, tile_size);
+  if (kind == LayoutKind::array) return read_array(value, tiles, tile_size);
+  return read_grid(value, kind, tiles);
+}
+
+// The textures of one map: how its tiles lie in them, and how many there are.
+struct Textures {
+  Layout layout;
+  Size tile_size;
   int levels;
 };
 
-LevelFiles read_levels(const JsonCursor& list, const Grid& grid, std::set<std::string>& used) {
-  const auto count = static_cast<std::size_t>(grid.levels);
+LevelFiles read_levels(const JsonCursor& list, const Textures& textures, std::set<std::string>& used) {
+  const auto count = static_cast<std::size_t>(textures.levels);
   list.array(count, count);
   LevelFiles levels;
-  for (int l = 0; l < grid.levels; ++l) {
+  for (int l = 0; l < textures.levels; ++l) {
     const JsonCursor level = list.item(static_cast<std::size_t>(l));
     level.only({"file", "size"});
     const JsonCursor file = level.member("file");
@@ -124,13 +204,12 @@ LevelFiles read_levels(const JsonCursor& list, const Grid& grid, std::set<std::s
     if (!used.insert(name).second) file.fail(fmt::format("{} is named twice", file.shown()));
     const JsonCursor size_field = level.member("size");
     const Size size = read_size(size_field, INT32_MAX);
-    const Size tile = level_size(grid.tile, l);
-    if (size.width != std::int64_t{tile.width} * grid.columns ||
-        size.height != std::int64_t{tile.height} * grid.rows)
-      size_field.fail(fmt::format("[{}, {}] is not {} x {} tiles of {} x {} texels, [{}, {}]", size.width,
-                                  size.height, grid.columns, grid.rows, tile.width, tile.height,
-                                  std::int64_t{tile.width} * grid.columns,
-                                  std::int64_t{tile.height} * grid.rows));
+    const Size needed = texture_size(textures.layout, textures.tile_size, l);
+    if (size != needed)
+      size_field.fail(
+          fmt::format("[{}, {}] is not [{}, {}], the size of the layout with tiles of {} x {} texels",
+                      size.width, size.height, needed.width, needed.height, textures.tile_size.width >> l,
+                      textures.tile_size.height >> l));
     if (std::int64_t{size.width} * size.height > most_texels_a_level)
       size_field.fail(
           fmt::format("[{}, {}] is more than {} texels", size.width, size.height, most_texels_a_level));
@@ -139,8 +218,8 @@ LevelFiles read_levels(const JsonCursor& list, const Grid& grid, std::set<std::s
   return levels;
 }
 
-std::vector<PackedMap> read_maps(const JsonCursor& list, const Grid& grid, std::vector<LevelFiles>& files,
-                                 std::set<std::string>& used) {
+std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& textures,
+                                 std::vector<LevelFiles>& files, std::set<std::string>& used) {
   std::vector<PackedMap> maps;
   std::set<std::string> names;
   const std::size_t count = list.array(1, most_maps);
@@ -157,7 +236,7 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Grid& grid, std::
     map.encoding = named(value.member("encoding"), Encoding::linear);
     map.depth = named(value.member("depth"), Depth::f32);
     map.channels = value.member("channels").small_integer(1, 4);
-    files.push_back(read_levels(value.member("levels"), grid, used));
+    files.push_back(read_levels(value.member("levels"), textures, used));
     maps.push_back(std::move(map));
   }
   return maps;
@@ -222,7 +301,9 @@ void read_mips(const JsonCursor& value, Pack& pack) {
   if (!box && mode != 0) sanitize.fail(fmt::format("is {} though \"filter\" is \"none\"", sanitize.shown()));
   pack.mip_mode = box ? static_cast<MipMode>(mode + 1) : MipMode::none;
   pack.guard = value.member("guard").small_integer(0, std::max(pack.tile_size.width, pack.tile_size.height));
-  pack.tile_levels = value.member("tile_levels").small_integer(1, box ? level_count(pack.tile_size) : 1);
+  pack.tile_levels =
+      value.member("tile_levels")
+          .small_integer(1, box ? levels_held(pack.layout, pack.tile_size, level_count(pack.tile_size)) : 1);
 }
 
 } // namespace
@@ -240,11 +321,11 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   const auto coloring = static_cast<Coloring>(root.member("coloring").one_of({"edge", "corner"}));
   pack.colors = read_colors(root.member("colors"), coloring);
   pack.tiles = read_tiles(root.member("tiles"), coloring, pack.colors);
-  pack.layout = read_layout(root.member("layout"), tile_count(pack.tiles));
+  pack.layout = read_layout(root.member("layout"), tile_count(pack.tiles), pack.tile_size);
   read_mips(root.member("mips"), pack);
   std::set<std::string> used{"pack.json"};
-  const Grid grid{pack.tile_size, pack.layout.columns, pack.layout.rows, pack.tile_levels};
-  pack.maps = read_maps(root.member("maps"), grid, result.map_files, used);
+  pack.maps =
+      read_maps(root.member("maps"), {pack.layout, pack.tile_size, pack.tile_levels}, result.map_files, used);
   pack.mapping = read_mapping(root.member("mapping"), result.index_file, used);
   if (pack.mapping.kind != MappingKind::index) check_complete(root.member("tiles"), pack.tiles, pack.colors);
   if (const auto corner = root.find("corner_pack")) {
@@ -252,9 +333,11 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
     CornerPack packed;
     packed.columns = corner->member("columns").small_integer(1, most_colors * most_colors);
     packed.rows = corner->member("rows").small_integer(1, most_colors * most_colors);
-    packed.maps =
-        read_maps(corner->member("maps"), {pack.tile_size, packed.columns, packed.rows, pack.tile_levels},
-                  result.corner_files, used);
+    Layout grid;
+    grid.columns = packed.columns;
+    grid.rows = packed.rows;
+    packed.maps = read_maps(corner->member("maps"), {grid, pack.tile_size, pack.tile_levels},
+                            result.corner_files, used);
     pack.corner_pack = std::move(packed);
   }
   return result;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tilepack {
 namespace {
@@ -72,14 +73,43 @@ Json tiles_json(const TileColors& tiles) {
   return list;
 }
 
-Json layout_json(const Layout& layout) {
+// Where the tile's own north-west corner lies, as fractions of the texture's sides.
+Json origin_json(const Layout& layout, int tile, Size tile_size) {
+  const Placement::Vector origin = placement(layout, tile, tile_size, 0).origin;
+  const auto fraction = [](double coordinate, int side) {
+    const double turns = coordinate / side;
+    return turns - std::floor(turns);
+  };
+  return Json::array(
+      {fraction(origin.x, layout.rotated.size.width), fraction(origin.y, layout.rotated.size.height)});
+}
+
+Json layout_json(const Layout& layout, Size tile_size) {
+  Json json{{"kind", name_of(layout.kind)}};
   Json cells = Json::array();
-  for (const Cell& cell : layout.cells)
-    cells.push_back({{"tile", cell.tile}, {"column", cell.column}, {"row", cell.row}});
-  return {{"kind", name_of(layout.kind)},
-          {"columns", layout.columns},
-          {"rows", layout.rows},
-          {"cells", std::move(cells)}};
+  if (layout.kind == LayoutKind::rotated) {
+    const RotatedScheme& scheme = layout.rotated.scheme;
+    for (const Cell& cell : layout.cells)
+      cells.push_back({{"tile", cell.tile},
+                       {"origin", origin_json(layout, cell.tile, tile_size)},
+                       {"angle", angle_in_degrees(scheme)}});
+    json["n"] = scheme.n;
+    json["k"] = scheme.k;
+    json["squares"] = scheme.squares;
+    json["gutter"] = layout.rotated.gutter;
+    json["size"] = size_json(layout.rotated.size);
+  } else if (layout.kind == LayoutKind::array) {
+    for (const Cell& cell : layout.cells) cells.push_back({{"tile", cell.tile}, {"layer", cell.row}});
+    json["layers"] = layout.rows;
+    json["border"] = layout.border;
+  } else {
+    for (const Cell& cell : layout.cells)
+      cells.push_back({{"tile", cell.tile}, {"column", cell.column}, {"row", cell.row}});
+    json["columns"] = layout.columns;
+    json["rows"] = layout.rows;
+  }
+  json["cells"] = std::move(cells);
+  return json;
 }
 
 using LevelFiles = std::vector<PackDescription::LevelFile>;
@@ -205,7 +235,7 @@ std::string pack_json(const PackDescription& description) {
   json["colors"] = edge ? Json{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
                         : Json{{"corner", pack.colors.corner}};
   json["tiles"] = tiles_json(pack.tiles);
-  json["layout"] = layout_json(pack.layout);
+  json["layout"] = layout_json(pack.layout, pack.tile_size);
   json["maps"] = maps_json(pack.maps, description.map_files);
   json["mapping"] = mapping_json(pack.mapping, description.index_file);
   if (pack.corner_pack)

@@ -105,8 +105,8 @@ void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
 
 Depth stored_depth(Depth sample, const PackingOptions& options) {
   if (options.depth) return *options.depth;
-  if (options.format == FileFormat::png && !is_integer(sample)) return Depth::u16;
-  if (options.format == FileFormat::exr && is_integer(sample)) return Depth::f16;
+  if (options.format == PackFormat::png && !is_integer(sample)) return Depth::u16;
+  if (options.format == PackFormat::exr && is_integer(sample)) return Depth::f16;
   return sample;
 }
 
@@ -132,7 +132,7 @@ PackedMap described_by(const TileMap& finest) {
 } // namespace
 
 void check_packing(const PackingOptions& options, const TileColors& tiles, Size tile_size) {
-  if (options.format && options.depth && (*options.format == FileFormat::png) != is_integer(*options.depth))
+  if (options.format && options.depth && (*options.format == PackFormat::png) != is_integer(*options.depth))
     throw Error(
         ErrorKind::usage, "--depth",
         fmt::format("'{}' can't be stored in the format asked for; png holds u8 and u16, exr f16 and f32",

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
-#include "tilepack/image/image_file.h"
 #include "tilepack/layout/layout_planner.h"
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/pack/pack.h"
@@ -11,6 +10,9 @@
 #include <vector>
 
 namespace tilepack {
+
+/// The image files a pack may be made of: PNG holds u8 and u16, EXR f16 and f32.
+enum class PackFormat { png, exr };
 
 /// How a finished tile set becomes a pack, whether synthesized or drawn by hand.
 struct PackingOptions {
@@ -24,7 +26,7 @@ struct PackingOptions {
   MipOptions mips;
   MappingKind mapping = MappingKind::permutation; ///< index for sets that aren't complete
   VirtualSize virtual_size{256, 256};
-  std::optional<FileFormat> format; ///< of all maps; unset: what the depth asks for
+  std::optional<PackFormat> format; ///< of all maps; unset: what the depth asks for
   std::optional<Depth> depth; ///< of all maps; unset: each map keeps its own, or the nearest of `format`
 };
 
