@@ -9,10 +9,36 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 namespace tilepack::cli {
 
-SampleFile parsed_map_option(const std::string& option) {
+namespace fs = std::filesystem;
+
+std::vector<MaterialFile> sample_files(const std::string& sample) {
+  const fs::path path(sample);
+  const bool is_folder = fs::is_directory(path);
+  // What is no folder and not there may be the common beginning of several names; if it is not, reading it
+  // as an image says that it is missing.
+  if (!is_folder && (fs::exists(fs::symlink_status(path)) || path.has_extension()))
+    return {{"color", Role::color, sample}};
+  const fs::path folder = is_folder ? path : path.parent_path();
+  std::vector<std::string> names;
+  std::error_code fault;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, fault), end; !fault && entry != end;
+       entry.increment(fault))
+    names.push_back(entry->path().filename().string());
+  if (!is_folder && (fault || std::none_of(names.begin(), names.end(), [&](const std::string& name) {
+                       return name.rfind(path.filename().string() + "_", 0) == 0;
+                     })))
+    return {{"color", Role::color, sample}};
+  if (fault) throw Error(ErrorKind::cannot_read, folder.string(), fault.message());
+  auto files = material_files(names, is_folder ? "" : path.filename().string(), sample);
+  for (MaterialFile& f : files) f.file = (folder / f.file).string();
+  return files;
+}
+
+MaterialFile parsed_map_option(const std::string& option) {
   const std::size_t equals = option.find('=');
   const std::string label = option.substr(0, equals);
   if (equals == std::string::npos || equals + 1 == option.size() || label.empty())
@@ -34,10 +60,10 @@ SampleFile parsed_map_option(const std::string& option) {
                           hint.empty() ? "." : hint));
 }
 
-std::vector<SampleMap> read_samples(std::span<const SampleFile> files, std::optional<Encoding> asked) {
+std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::optional<Encoding> asked) {
   std::vector<SampleMap> maps(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
-    const SampleFile& f = files[i];
+    const MaterialFile& f = files[i];
     ImageFile read = read_image(f.file, f.role == Role::color ? asked : std::optional(Encoding::linear));
     maps[i] = {f.name, f.role, read.encoding, read.depth, std::move(read.image)};
   });

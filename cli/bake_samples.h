@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tilepack/tileset/map.h"
+#include "tilepack/pack/material_files.h"
 
 #include <optional>
 #include <span>
@@ -9,18 +9,15 @@
 
 namespace tilepack::cli {
 
-/// An image file of a material, and what it is in it.
-struct SampleFile {
-  std::string name; ///< of the map in the pack
-  Role role = Role::color;
-  std::string file;
-};
+/// The files that SAMPLE stands for: one image, all maps of the material in a folder, or those of one of
+/// several there ("textures/rock" for textures/rock_albedo.png, textures/rock_normal.png …).
+std::vector<MaterialFile> sample_files(const std::string& sample);
 
 /// "ROLE=FILE" or "NAME:ROLE=FILE" as given to --map; without NAME the map is called like its role.
-SampleFile parsed_map_option(const std::string& option);
+MaterialFile parsed_map_option(const std::string& option);
 
 /// Reads the maps side by side. Color maps are taken to be encoded as `asked`, or as their file says; all
 /// others are plain values.
-std::vector<SampleMap> read_samples(std::span<const SampleFile> files, std::optional<Encoding> asked);
+std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::optional<Encoding> asked);
 
 } // namespace tilepack::cli

@@ -81,9 +81,9 @@ BakeOptions options_from(const BakeArguments& arguments) {
   return bake_options(settings);
 }
 
-void write_depfile(const BakeArguments& arguments, const std::vector<SampleFile>& files) {
+void write_depfile(const BakeArguments& arguments, const std::vector<MaterialFile>& files) {
   std::vector<std::string> inputs;
-  for (const SampleFile& file : files) inputs.push_back(file.file);
+  for (const MaterialFile& file : files) inputs.push_back(file.file);
   if (std::filesystem::is_regular_file(arguments.preset)) inputs.push_back(arguments.preset);
   const std::string target = (std::filesystem::path(arguments.folder) / "pack.json").string();
   std::ofstream stream(arguments.depfile, std::ios::binary);
@@ -113,7 +113,7 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   if (arguments.folder.empty()) throw Error(ErrorKind::usage, "", "--output is required");
   const JobLimit limit(arguments.jobs);
   const BakeOptions options = options_from(arguments);
-  std::vector<SampleFile> files{{"color", Role::color, arguments.sample}};
+  std::vector<MaterialFile> files = sample_files(arguments.sample);
   for (const std::string& option : arguments.maps) files.push_back(parsed_map_option(option));
   std::optional<Encoding> asked;
   if (!arguments.encoding.empty()) asked = arguments.encoding == "srgb" ? Encoding::srgb : Encoding::linear;
@@ -139,7 +139,10 @@ int run_bake(const BakeArguments& arguments, Console& console) {
 
 Action declare_bake(CLI::App& app) {
   auto arguments = std::make_shared<BakeArguments>();
-  app.add_option("SAMPLE", arguments->sample, "image to make tiles from")->type_name("");
+  app.add_option(
+         "SAMPLE", arguments->sample,
+         "image to make tiles from, or folder of the maps of a material (rock_albedo.png, rock_normal.png …)")
+      ->type_name("");
   app.add_option("-o,--output", arguments->folder, "folder of the pack")->type_name("DIR");
   app.add_option("--map", arguments->maps,
                  "a further map of the material, in register with SAMPLE; may be repeated")
@@ -179,7 +182,8 @@ Action declare_bake(CLI::App& app) {
 Verb bake_verb() {
   return {"bake", "make a tile pack from a texture sample or a set of material maps",
           "  tilepack bake gravel.png -o gravel.pack --tile-size 128 --colors 2\n"
-          "  tilepack bake rock.png -o rock.pack --map normal=rock_normal.png --preset terrain --seed 7\n",
+          "  tilepack bake rock.png -o rock.pack --map normal=rock_normal.png --preset terrain --seed 7\n"
+          "  tilepack bake materials/rock -o rock.pack\n",
           declare_bake};
 }
 

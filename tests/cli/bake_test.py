@@ -111,6 +111,23 @@ class Bake(CommandCase):
         files = self.contents("out")
         self.assertEqual(files["roughness_0.png"], files["wet_0.png"])
 
+    def test_a_folder_is_a_material(self):
+        os.mkdir(self.path("rock"))
+        self.noise_png("rock/rock_albedo.png")
+        self.noise_png("rock/rock_nor_gl.png", seed=2)
+        self.noise_png("rock/rock_rough.png", channels=1, seed=3)
+        self.write("rock/readme.txt", "not a map")
+        self.bake(sample="rock")
+        made = self.pack()["maps"]
+        self.assertEqual([(m["name"], m["role"]) for m in made],
+                         [("color", "color"), ("normal", "normal"), ("roughness", "roughness")])
+        self.bake(sample="rock/rock", output="by_name")
+        self.assertEqual(self.contents("by_name"), self.contents("out"))
+        self.bake("--map", "roughness=rock/rock_rough.png", sample="rock/rock_albedo.png", output="one")
+        self.assertEqual([m["name"] for m in self.pack("one")["maps"]], ["color", "roughness"])
+        self.noise_png("rock/bark_albedo.png")
+        self.refused("bake", "rock", "-o", "out", code=3, saying="bark, rock")
+
     def test_tile_sizes_that_are_no_power_of_two(self):
         for size, levels in (("12", 3), ("20x12", 3), ("15", 1), ("24x16", 4)):
             with self.subTest(size):

@@ -43,7 +43,9 @@ class Samples(CommandCase):
 
     def test_a_folder_or_a_device_is_no_sample(self):
         os.mkdir(self.path("folder"))
-        self.refused("bake", "folder", "-o", "out", code=CANNOT_READ)
+        self.refused("bake", "folder", "-o", "out", code=INVALID, saying="no color map")
+        self.refused("bake", "folder/rock", "-o", "out", code=CANNOT_READ, saying="folder/rock")
+        self.refused("bake", "nowhere/rock", "-o", "out", code=CANNOT_READ, saying="nowhere/rock")
         self.refused("bake", "/dev/null", "-o", "out", code=CANNOT_READ)
 
 
