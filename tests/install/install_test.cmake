@@ -1,0 +1,44 @@
+# Installs the build, moves what was installed elsewhere, builds samples/example against it and runs it. Run by
+# ctest with -D SOURCE, BUILD, WORK, COMPILER, FLAGS, BUILD_TYPE.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}\n${output}\nended with ${result}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
+file(RENAME ${WORK}/first ${WORK}/moved)
+
+# No folder of this machine in what other projects read.
+file(GLOB_RECURSE package ${WORK}/moved/*.cmake)
+foreach(file ${package})
+  file(READ ${file} text)
+  foreach(folder ${SOURCE} ${BUILD} ${WORK})
+    string(FIND "${text}" "${folder}" at)
+    if(NOT at EQUAL -1)
+      message(FATAL_ERROR "${file} names ${folder}")
+    endif()
+  endforeach()
+endforeach()
+foreach(file bin/tilepack include/tilepack/pack/bake.h share/tilepack/pack.schema.json
+             share/tilepack/presets/default.json)
+  if(NOT EXISTS ${WORK}/moved/${file})
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/samples/example -B ${WORK}/example -D CMAKE_PREFIX_PATH=${WORK}/moved
+    -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_FLAGS=${FLAGS} -D CMAKE_BUILD_TYPE=${BUILD_TYPE})
+run(${CMAKE_COMMAND} --build ${WORK}/example)
+run(${WORK}/example/look_up ${SOURCE}/samples/pebbles.png)
+# Three points, each a coordinate and three channels.
+set(value " +[0-9]+\\.[0-9]+")
+if(NOT output MATCHES "^(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)$")
+  message(FATAL_ERROR "look_up printed\n${output}")
+endif()
+run(${WORK}/moved/bin/tilepack --version)
+file(REMOVE_RECURSE ${WORK})
