@@ -1,0 +1,69 @@
+#pragma once
+
+#include "tilepack/mapping/mix_hash.h"
+#include "tilepack/sampler/fast_sampler.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tilepack {
+
+/// Everything the kernels of FastSampler read, as plain pointers: they are compiled once for each instruction
+/// set, and nothing of the standard library may be compiled with them.
+struct FastTables {
+  static constexpr int max_levels = 32;
+
+  // Texels of all levels in one block, four channels each. A level is stored with one more texel on each
+  // side, wrapped, so that no tap has to wrap. `base` is where texel (-1, -1) stands, in texels.
+  TexelStorage storage = TexelStorage::u8;
+  const void* texels = nullptr;
+  int levels = 0;
+  float tile_width[max_levels] = {};
+  float tile_height[max_levels] = {};
+  std::int32_t base[max_levels] = {};
+  std::int32_t stride[max_levels] = {}; // texels a row
+  float unit = 1;                       // value of the stored code 1
+  bool alpha = false;                   // premultiplied: divide at the end
+  int channels = 0;
+
+  // How a cell of the virtual texture becomes a place in the pack, column + 65536 * row.
+  enum class Lookup {
+    none,              // a plain texture: always place 0
+    index,             // places[y * width + x]
+    permutation_edges, // Wei04, Eq. 2, by tables
+    permutation_corners,
+    mix_edges,
+    mix_corners
+  };
+  Lookup lookup = Lookup::none;
+  std::int64_t width = 1; // of the virtual texture, in tiles
+  std::int64_t height = 1;
+  const std::int32_t* places = nullptr; // of a cell (index) or of a tile (the others)
+  int horizontal_colors = 0;            // Kh; for corners K
+  int vertical_colors = 0;              // Kv; for corners K
+  // permutation: first[x] = P[x], second[y] = P[2y] (P[y'] is not needed for corners), and the colors
+  // horizontal[k] = P[k] mod Kh, vertical[k] = P[k] mod Kv, indices mod n and written out so far that a sum
+  // needs no mod.
+  const std::int32_t* first = nullptr;
+  const std::int32_t* second = nullptr;
+  const std::int32_t* horizontal = nullptr;
+  const std::int32_t* vertical = nullptr;
+  MixKeys horizontal_keys;
+  MixKeys vertical_keys;
+};
+
+/// Looks up a whole batch with one instruction set.
+struct FastKernel {
+  const char* target = "";
+  void (*look_up)(const FastTables& tables, const SampleBatch& batch, Filter filter, Weights weights,
+                  float* const* out) = nullptr;
+};
+
+/// The kernels this machine can run, best first; never empty.
+std::vector<FastKernel> fast_kernels();
+
+/// The slow way to cell and fraction along one axis, for what the kernels don't handle: coordinates far out,
+/// NaN, and those beyond a side that is no power of two. In place: tile[i] becomes the cell, 0..side-1.
+void settle_coordinates(std::int32_t* tile, float* fraction, int count, std::int64_t side);
+
+} // namespace tilepack
