@@ -14,7 +14,7 @@ struct FastTables {
   static constexpr int max_levels = 32;
 
   // Texels of all levels in one block, four channels each. A level is stored with one more texel on each
-  // side, wrapped, so that no tap has to wrap. `base` is where texel (-1, -1) stands, in texels.
+  // side, wrapped, so that no tap has to wrap. `base` is where texel (0, 0) stands, in texels.
   TexelStorage storage = TexelStorage::u8;
   const void* texels = nullptr;
   int levels = 0;
@@ -51,6 +51,9 @@ struct FastTables {
   MixKeys horizontal_keys;
   MixKeys vertical_keys;
 };
+
+/// FastTables::Lookup for one cell within the virtual texture.
+std::int32_t place_of_cell(const FastTables& tables, std::int32_t x, std::int32_t y);
 
 /// Looks up a whole batch with one instruction set.
 struct FastKernel {

@@ -115,8 +115,8 @@ void FastSampler::State::take_texels(const PackedMap& map, Size tile) {
   std::int64_t count = 0;
   for (int l = 0; l < levels; ++l) {
     const Image& image = map.levels[static_cast<std::size_t>(l)];
-    t.base[l] = static_cast<std::int32_t>(count);
     t.stride[l] = image.width() + 2;
+    t.base[l] = static_cast<std::int32_t>(count) + t.stride[l] + 1;
     t.tile_width[l] = static_cast<float>(tile.width >> l);
     t.tile_height[l] = static_cast<float>(tile.height >> l);
     count += static_cast<std::int64_t>(image.width() + 2) * (image.height() + 2);
@@ -131,7 +131,7 @@ void FastSampler::State::take_texels(const PackedMap& map, Size tile) {
     tbb::parallel_for(-1, image.height() + 1, [&](int y) {
       for (int x = -1; x <= image.width(); ++x) {
         const auto from = image.texel(wrapped(x, image.width()), wrapped(y, image.height()));
-        const std::int64_t index = t.base[l] + static_cast<std::int64_t>(y + 1) * t.stride[l] + (x + 1);
+        const std::int64_t index = t.base[l] + static_cast<std::int64_t>(y) * t.stride[l] + x;
         std::byte* at = texels.data() + static_cast<std::size_t>(index) * 4 * value;
         for (std::size_t c = 0; c < from.size(); ++c) {
           const bool weighed = t.alpha && c + 1 < from.size();
@@ -260,6 +260,39 @@ std::vector<std::string> fast_sampler_targets() {
   std::vector<std::string> names;
   for (const FastKernel& kernel : fast_kernels()) names.push_back(kernel.target);
   return names;
+}
+
+std::int32_t place_of_cell(const FastTables& t, std::int32_t x, std::int32_t y) {
+  if (t.lookup == Lookup::index) return t.places[y * static_cast<std::int32_t>(t.width) + x];
+  const std::int32_t x1 = x == t.width - 1 ? 0 : x + 1;
+  const std::int32_t y1 = y == t.height - 1 ? 0 : y + 1;
+  const int kh = t.horizontal_colors;
+  const int kv = t.vertical_colors;
+  const auto mixed_color = [](const MixKeys& keys, std::int32_t i, std::int32_t j, int colors) {
+    return mix_color(keys, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), colors);
+  };
+  // The four colors as digits of one number, the bases alternating: the id in the complete set.
+  const auto place = [&](int a, int b, int c, int d) { return t.places[((a * kv + b) * kh + c) * kv + d]; };
+  switch (t.lookup) {
+  case Lookup::permutation_edges: { // [Wei04, Eq. 2]
+    const std::int32_t p = t.first[x];
+    const std::int32_t q = t.second[y];
+    return place(t.horizontal[p + y], t.vertical[x1 + q], t.horizontal[p + y1], t.vertical[x + q]);
+  }
+  case Lookup::permutation_corners: {
+    const std::int32_t p = t.first[x];
+    const std::int32_t p1 = t.first[x1];
+    return place(t.horizontal[p + y], t.horizontal[p1 + y], t.horizontal[p + y1], t.horizontal[p1 + y1]);
+  }
+  case Lookup::mix_edges:
+    return place(mixed_color(t.horizontal_keys, x, y, kh), mixed_color(t.vertical_keys, x1, y, kv),
+                 mixed_color(t.horizontal_keys, x, y1, kh), mixed_color(t.vertical_keys, x, y, kv));
+  case Lookup::mix_corners:
+    return place(mixed_color(t.horizontal_keys, x, y, kh), mixed_color(t.horizontal_keys, x1, y, kh),
+                 mixed_color(t.horizontal_keys, x, y1, kh), mixed_color(t.horizontal_keys, x1, y1, kh));
+  default:
+    return 0;
+  }
 }
 
 void settle_coordinates(std::int32_t* tile, float* fraction, int count, std::int64_t side) {
