@@ -15,9 +15,11 @@ struct MixKeys {
 };
 
 inline MixKeys mix_keys(std::uint64_t seed, MixAxis axis) {
-  const auto stream = static_cast<std::uint64_t>(axis) * 2;
-  const std::uint64_t a = random_bits(seed, "mix", stream);
-  const std::uint64_t b = random_bits(seed, "mix", stream + 1);
+  // The sequence of splitmix64: cheap enough to be drawn anew for every cell.
+  constexpr std::uint64_t increment = 0x9e3779b97f4a7c15u;
+  const std::uint64_t start = mixed(seed) + (2 * static_cast<std::uint64_t>(axis) + 1) * increment;
+  const std::uint64_t a = mixed(start);
+  const std::uint64_t b = mixed(start + increment);
   return {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32), static_cast<std::uint32_t>(b),
            static_cast<std::uint32_t>(b >> 32)}};
 }

@@ -35,7 +35,7 @@ class Bake(CommandCase):
             schema = json.load(stream)
         jsonschema.Draft202012Validator.check_schema(schema)
         validator = jsonschema.Draft202012Validator(schema)
-        kinds = [(), ("--mapping", "mix"), ("--mapping", "index"), ("--colors", "3x1", "--mips", "none"),
+        kinds = [(), ("--mapping", "permutation"), ("--mapping", "index"), ("--colors", "3x1", "--mips", "none"),
                  ("--mips", "corners"), ("--tile-size", "12x20"), ("--format", "exr")]
         for arguments in kinds:
             with self.subTest(arguments):
@@ -45,7 +45,7 @@ class Bake(CommandCase):
     def test_schema_and_program_refuse_the_same(self):
         with open(os.path.join(SOURCE, "lib/pack/pack.schema.json"), encoding="utf-8") as stream:
             validator = jsonschema.Draft202012Validator(json.load(stream))
-        self.bake()
+        self.bake("--mapping", "permutation")
         good = self.pack()
         for place, value in [(("version",), 2), (("tile_size", 0), 0), (("maps", 0, "levels", 0, "file"), "../a"),
                              (("mapping", "table", 0), -1), (("colors", "vertical"), 9), (("mips", "filter"), "sinc"),

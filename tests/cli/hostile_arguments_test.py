@@ -44,7 +44,7 @@ class Arguments(CommandCase):
         for arguments in (("--layout", "de-bruijn"), ("--coloring", "corner", "--layout", "tile-index"),
                           ("--coloring", "corner", "--colors", "5"), ("--coloring", "corner", "--colors", "2x2"),
                           ("--format", "png", "--depth", "f16"), ("--format", "exr", "--depth", "u8"),
-                          ("--virtual-size", "5000"), ("--mapping", "index", "--virtual-size", "20000"),
+                          ("--mapping", "permutation", "--virtual-size", "5000"), ("--mapping", "index", "--virtual-size", "20000"),
                           ("--guard", "9"), ("--tile-size", "4096", "--colors", "8")):
             with self.subTest(arguments):
                 self.refused("bake", sample, "-o", "out", *SMALL, *arguments, code=USAGE)
