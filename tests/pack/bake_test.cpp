@@ -124,6 +124,7 @@ TEST_CASE("samples and options that can't be are refused", "[pack]") {
   options.synth.colors = {8, 8, 0};
   CHECK(fault({color}, options) == ErrorKind::usage);
   options = small_options();
+  options.mapping = MappingKind::permutation;
   options.virtual_size = {5000, 5000};
   CHECK(fault({color}, options) == ErrorKind::usage);
 }
