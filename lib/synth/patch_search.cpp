@@ -2,6 +2,8 @@
 
 #include <opencv2/core.hpp>
 
+#include <limits>
+
 namespace tilepack {
 
 Overlap::Overlap(int patch_width, int patch_height, int channel_count)
@@ -105,6 +107,38 @@ PositionMap PatchSearch::mismatches(const Overlap& overlap) const {
     for (int x = 0; x < map.width; ++x) map.values[i++] = nearest_integer(row[x]) + overlap.constant;
   }
   return map;
+}
+
+std::int64_t mismatch_at(const FeatureImage& image, const Overlap& overlap, SourceTexel position) {
+  std::int64_t sum = overlap.constant;
+  std::size_t i = 0;
+  for (int y = 0; y < overlap.height; ++y)
+    for (int x = 0; x < overlap.width; ++x, ++i) {
+      if (overlap.weight[i] == 0) continue;
+      const std::uint8_t* texel = image.texel(position.x + x, position.y + y);
+      for (int c = 0; c < overlap.channels; ++c) {
+        const int value = texel[c];
+        const std::size_t j = i * static_cast<std::size_t>(overlap.channels) + static_cast<std::size_t>(c);
+        sum += static_cast<std::int64_t>(value) * (overlap.weight[i] * value - 2 * overlap.weighted[j]);
+      }
+    }
+  return sum;
+}
+
+SourceTexel best_near(const FeatureImage& image, const Overlap& overlap, SourceTexel start, int distance) {
+  std::int64_t best = std::numeric_limits<std::int64_t>::max();
+  SourceTexel place;
+  for (int dy = -distance; dy <= distance; ++dy)
+    for (int dx = -distance; dx <= distance; ++dx) {
+      const SourceTexel at{std::clamp(start.x + dx, 0, image.width - overlap.width),
+                           std::clamp(start.y + dy, 0, image.height - overlap.height)};
+      const std::int64_t mismatch = mismatch_at(image, overlap, at);
+      if (mismatch < best) {
+        best = mismatch;
+        place = at;
+      }
+    }
+  return place;
 }
 
 } // namespace tilepack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/source_map.h"
 
 #include <cstdint>
 #include <memory>
@@ -60,5 +61,12 @@ private:
   struct Spectra;
   std::unique_ptr<Spectra> spectra;
 };
+
+/// The same for one position, counted texel by texel.
+std::int64_t mismatch_at(const FeatureImage& image, const Overlap& overlap, SourceTexel position);
+
+/// The position with the least mismatch within `distance` texels of `start` in x and in y, of those at which
+/// the patch lies inside the image.
+SourceTexel best_near(const FeatureImage& image, const Overlap& overlap, SourceTexel start, int distance);
 
 } // namespace tilepack

@@ -101,38 +101,6 @@ void improve(const Scene& scene, const PatchSearch& search, std::vector<SourceTe
   patches[own] = place;
 }
 
-std::int64_t overlap_mismatch(const Scene& scene, const Overlap& overlap, SourceTexel at) {
-  std::int64_t sum = overlap.constant;
-  std::size_t i = 0;
-  for (int y = 0; y < overlap.height; ++y)
-    for (int x = 0; x < overlap.width; ++x, ++i) {
-      if (overlap.weight[i] == 0) continue;
-      const std::uint8_t* texel = scene.image.texel(at.x + x, at.y + y);
-      for (int c = 0; c < overlap.channels; ++c) {
-        const int value = texel[c];
-        const std::size_t j = i * static_cast<std::size_t>(overlap.channels) + static_cast<std::size_t>(c);
-        sum += static_cast<std::int64_t>(value) * (overlap.weight[i] * value - 2 * overlap.weighted[j]);
-      }
-    }
-  return sum;
-}
-
-// Brings a patch found at half the scale to this one: the best of the positions around its double.
-void refine(const Scene& scene, SourceTexel& patch, const Overlap& overlap) {
-  const SourceTexel start{2 * patch.x, 2 * patch.y};
-  std::int64_t best = std::numeric_limits<std::int64_t>::max();
-  for (int dy = -1; dy <= 2; ++dy)
-    for (int dx = -1; dx <= 2; ++dx) {
-      const SourceTexel at{std::clamp(start.x + dx, 0, scene.positions_x() - 1),
-                           std::clamp(start.y + dy, 0, scene.positions_y() - 1)};
-      const std::int64_t mismatch = overlap_mismatch(scene, overlap, at);
-      if (mismatch < best) {
-        best = mismatch;
-        patch = at;
-      }
-    }
-}
-
 SourceTexel random_position(const Scene& scene, std::uint64_t seed, std::uint64_t index) {
   return {static_cast<int>(
               random_below(seed, "quilt patch x", index, static_cast<std::uint32_t>(scene.positions_x()))),
@@ -164,9 +132,11 @@ EdgePatches searched(const std::vector<Scene>& scenes, const PatchSearch& search
     for (SourceTexel& at : doubled)
       at = {std::min(2 * at.x, scene.positions_x() - 1), std::min(2 * at.y, scene.positions_y() - 1)};
     const Overlap against_vertical = overlap_with(scene, doubled, true);
-    for (SourceTexel& at : patches.horizontal) refine(scene, at, against_vertical);
+    for (SourceTexel& at : patches.horizontal)
+      at = best_near(scene.image, against_vertical, {2 * at.x, 2 * at.y}, 2);
     const Overlap against_horizontal = overlap_with(scene, patches.horizontal, false);
-    for (SourceTexel& at : patches.vertical) refine(scene, at, against_horizontal);
+    for (SourceTexel& at : patches.vertical)
+      at = best_near(scene.image, against_horizontal, {2 * at.x, 2 * at.y}, 2);
   }
   return patches;
 }

@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/framed_set.h"
 #include "tilepack/synth/quilt.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,8 @@ SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& opt
   require_valid(options);
   require_fitting(samples, options);
   const FeatureImage image = feature_image(samples);
+  if (options.interior == Interior::patch)
+    return framed_set(image, options, settings_for(options.effort, options.seed), progress);
   return quilted(image, options, chosen_edge_patches(image, options, progress));
 }
 

@@ -1,0 +1,431 @@
+#include "tilepack/synth/frame_search.h"
+
+#include "tilepack/synth/patch_search.h"
+#include "tilepack/synth/strip_space.h"
+#include "tilepack/tileset/random.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace tilepack {
+namespace {
+
+struct Candidate {
+  SourceTexel place;
+  double misfit = 0.0; // of its ends, per texel of overlap depth
+};
+
+// The best places by misfit and evenness, no two within a few texels.
+class CandidateList {
+public:
+  CandidateList(const FeatureImage& feature_image, const FrameSearchOptions& search_options)
+      : image(feature_image), options(search_options),
+        mean(channel_means({0, 0}, image.width, image.height)) {}
+
+  std::vector<Candidate> best(const PositionMap& map, const StripSpace& space, int depth) const {
+    std::vector<std::size_t> order(map.values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const std::size_t looked_at = std::min(order.size(), static_cast<std::size_t>(60 * options.candidates));
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(looked_at), order.end(),
+                      [&](std::size_t a, std::size_t b) {
+                        return map.values[a] != map.values[b] ? map.values[a] < map.values[b] : a < b;
+                      });
+    std::vector<Candidate> apart;
+    for (std::size_t i = 0; i < looked_at && apart.size() < 4 * static_cast<std::size_t>(options.candidates);
+         ++i) {
+      const SourceTexel at{static_cast<int>(order[i] % static_cast<std::size_t>(map.width)),
+                           static_cast<int>(order[i] / static_cast<std::size_t>(map.width))};
+      if (std::any_of(apart.begin(), apart.end(), [&](const Candidate& c) {
+            return std::abs(c.place.x - at.x) < 3 && std::abs(c.place.y - at.y) < 3;
+          }))
+        continue;
+      apart.push_back({at, static_cast<double>(map.values[order[i]]) / depth + unevenness(at, space)});
+    }
+    std::stable_sort(apart.begin(), apart.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
+    if (apart.size() > static_cast<std::size_t>(options.candidates))
+      apart.resize(static_cast<std::size_t>(options.candidates));
+    return apart;
+  }
+
+private:
+  std::vector<double> channel_means(SourceTexel at, int width, int height) const {
+    std::vector<std::int64_t> sums(static_cast<std::size_t>(image.channels));
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (int c = 0; c < image.channels; ++c)
+          sums[static_cast<std::size_t>(c)] += image.texel(at.x + x, at.y + y)[c];
+    std::vector<double> means;
+    for (const std::int64_t s : sums)
+      means.push_back(static_cast<double>(s) / (static_cast<double>(width) * height));
+    return means;
+  }
+
+  double unevenness(SourceTexel at, const StripSpace& space) const {
+    const auto own = channel_means(at, space.width(), space.height());
+    double squared = 0.0;
+    for (std::size_t c = 0; c < own.size(); ++c) squared += (own[c] - mean[c]) * (own[c] - mean[c]);
+    return options.evenness * squared * space.length;
+  }
+
+  const FeatureImage& image;
+  const FrameSearchOptions& options;
+  std::vector<double> mean;
+};
+
+// Positions of a tile's inside that are tried: every stride-th, so that their number is bounded.
+struct Positions {
+  int stride = 1;
+  int columns = 0;
+  int rows = 0;
+  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+};
+
+constexpr std::size_t most_positions = 10'000;
+
+Positions inside_positions(const FeatureImage& image, Size tile) {
+  Positions p;
+  for (;; ++p.stride) {
+    p.columns = (image.width - tile.width) / p.stride + 1;
+    p.rows = (image.height - tile.height) / p.stride + 1;
+    if (p.count() <= most_positions) return p;
+  }
+}
+
+using MisfitMap = std::vector<float>; // one a position; sums of exact integers, scaled
+
+// What a strip with its corner patches shows on one side of its edge, as runs of texels along the edge with
+// their places in the tile. For vertical strips x and y are swapped, as in the transposed image.
+struct SidePart {
+  struct Run {
+    int along, across;
+    std::vector<std::uint8_t> values;
+  };
+  std::vector<Run> runs;
+};
+
+struct StripAt {
+  const FeatureImage& image;
+  const FrameShape& shape;
+  StripSpace space;
+  SourceTexel place, first, second;
+
+  const std::uint8_t* shown(int along, int across) const {
+    const int half = shape.corner_reach / 2;
+    const SourceTexel t = space.at(along, across);
+    SourceTexel s = sum(place, t);
+    if (along < half) s = sum(corner_origin(space, first, false), t);
+    if (along >= space.length - half) s = sum(corner_origin(space, second, true), t);
+    return image.clamped_texel(s.x, s.y);
+  }
+};
+
+// `before`: the side of lower across, which belongs to the tile above or to the left.
+SidePart side_part(const StripAt& strip, bool before) {
+  SidePart part;
+  const StripSpace& space = strip.space;
+  const bool horizontal = space.direction == Direction::horizontal;
+  const int extent = horizontal ? strip.shape.tile.height : strip.shape.tile.width;
+  for (int k = 0; k < space.reach; ++k) {
+    const int across = before ? space.reach - 1 - k : space.reach + k;
+    const int skip = horizontal ? k : k + 1; // the diagonal belongs to the horizontal strips
+    SidePart::Run run{skip, before ? extent - 1 - k : k, {}};
+    for (int along = skip; along < space.length - skip; ++along) {
+      const std::uint8_t* shown = strip.shown(along, across);
+      run.values.insert(run.values.end(), shown, shown + strip.image.channels);
+    }
+    part.runs.push_back(std::move(run));
+  }
+  return part;
+}
+
+FeatureImage transposed(const FeatureImage& image) {
+  FeatureImage result{image.height, image.width, image.channels, {}};
+  result.values.reserve(image.values.size());
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x)
+      result.values.insert(result.values.end(), image.texel(y, x), image.texel(y, x) + image.channels);
+  return result;
+}
+
+// 16-bit products summed in pairs are one instruction where the compiler sees them.
+int run_difference(const std::uint8_t* a, const std::uint8_t* b, std::size_t count) {
+  int total = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto d = static_cast<std::int16_t>(a[i] - b[i]);
+    total += d * d;
+  }
+  return total;
+}
+
+// `image` is transposed for vertical strips; `positions` are of the plain one.
+MisfitMap misfits(const FeatureImage& image, const Positions& positions, const SidePart& part, bool swapped,
+                  int depth) {
+  MisfitMap map(positions.count());
+  std::size_t p = 0;
+  for (int j = 0; j < positions.rows; ++j)
+    for (int i = 0; i < positions.columns; ++i, ++p) {
+      const int along = (swapped ? j : i) * positions.stride;
+      const int across = (swapped ? i : j) * positions.stride;
+      std::int64_t total = 0;
+      for (const auto& run : part.runs)
+        if (!run.values.empty())
+          total += run_difference(image.texel(along + run.along, across + run.across), run.values.data(),
+                                  run.values.size());
+      map[p] = static_cast<float>(static_cast<double>(total) / depth);
+    }
+  return map;
+}
+
+struct StripChoices {
+  std::vector<Candidate> candidates;
+  std::vector<std::array<MisfitMap, 2>> maps; // per candidate: side before, side after
+  std::size_t chosen = 0;
+};
+
+// One start: its corner patches, and for every strip (horizontal ones first) the places to choose from.
+class FrameChoice {
+public:
+  FrameChoice(const FeatureImage& feature_image, const FeatureImage& transposed_image,
+              const SampleStatistics& sample_statistics, int sample_scale, const FrameShape& frame_shape,
+              const PatchSearch& search, const FrameSearchOptions& search_options, std::uint64_t start)
+      : image(feature_image), transpose(transposed_image), statistics(sample_statistics), scale(sample_scale),
+        shape(frame_shape), options(search_options), positions(inside_positions(image, shape.tile)) {
+    place_corners(start);
+    const CandidateList list(image, options);
+    strips.resize(shape.horizontal.size() + shape.vertical.size());
+    tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
+      const StripSpace space = space_of(shape, direction(i));
+      const SourceTexel first = corners[static_cast<std::size_t>(ends(i).first)];
+      const SourceTexel second = corners[static_cast<std::size_t>(ends(i).second)];
+      const PositionMap map = search.mismatches(end_overlap(image, shape, space, first, second));
+      StripChoices& strip = strips[i];
+      strip.candidates = list.best(map, space, shape.corner_reach);
+      strip.maps.resize(strip.candidates.size());
+      const bool swapped = space.direction == Direction::vertical;
+      tbb::parallel_for(std::size_t{0}, strip.maps.size(), [&](std::size_t c) {
+        const StripAt at{image, shape, space, strip.candidates[c].place, first, second};
+        for (const bool before : {true, false})
+          strip.maps[c][before ? 0 : 1] =
+              misfits(swapped ? transpose : image, positions, side_part(at, before), swapped, shape.reach);
+      });
+    });
+    list_tiles();
+  }
+
+  double improve() {
+    tally = statistics.empty();
+    for (std::size_t i = 0; i < strips.size(); ++i)
+      statistics.add(tally, shown_area(i, strips[i].chosen), uses[i]);
+    misfit_at_start = cost();
+    double total = misfit_at_start;
+    for (int round = 0; round < options.rounds; ++round) {
+      bool changed = false;
+      for (std::size_t i = 0; i < strips.size(); ++i) changed = choose(i) || changed;
+      total = cost() + options.likeness * misfit_at_start * statistics.distance(tally);
+      if (!changed) break;
+    }
+    return total;
+  }
+
+  FramePlan plan() const {
+    FramePlan result;
+    result.corners = corners;
+    for (std::size_t i = 0; i < strips.size(); ++i)
+      (direction(i) == Direction::horizontal ? result.horizontal : result.vertical)
+          .push_back(strips[i].candidates[strips[i].chosen].place);
+    return result;
+  }
+
+private:
+  static constexpr int sides = 4;
+  struct Side {
+    std::size_t strip;
+    std::size_t part; // 0: the tile lies before the strip, 1: after
+  };
+
+  Direction direction(std::size_t strip) const {
+    return strip < shape.horizontal.size() ? Direction::horizontal : Direction::vertical;
+  }
+  const FrameShape::Strip& ends(std::size_t strip) const {
+    return strip < shape.horizontal.size() ? shape.horizontal[strip]
+                                           : shape.vertical[strip - shape.horizontal.size()];
+  }
+
+  void place_corners(std::uint64_t start) {
+    const int margin = std::max(shape.reach, shape.corner_reach);
+    const auto range_x = static_cast<std::uint32_t>(std::max(1, image.width - 2 * margin + 1));
+    const auto range_y = static_cast<std::uint32_t>(std::max(1, image.height - 2 * margin + 1));
+    for (int corner = 0; corner < shape.corners; ++corner) {
+      // The farthest of a few from those placed already.
+      SourceTexel best{};
+      int best_distance = -1;
+      for (std::uint64_t attempt = 0; attempt < 4; ++attempt) {
+        const std::uint64_t index = (start * 16 + static_cast<std::uint64_t>(corner)) * 16 + attempt;
+        const SourceTexel at{
+            margin + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
+            margin + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
+        int distance = std::numeric_limits<int>::max();
+        for (const SourceTexel& other : corners)
+          distance = std::min(distance, std::abs(at.x - other.x) + std::abs(at.y - other.y));
+        if (distance > best_distance) {
+          best_distance = distance;
+          best = at;
+        }
+      }
+      corners.push_back(best);
+    }
+  }
+
+  // Sets of more tiles than this are judged by a part of them, evenly spread over the ids.
+  static constexpr std::size_t most_tiles = 128;
+
+  void list_tiles() {
+    const std::size_t step = (shape.tiles.size() + most_tiles - 1) / most_tiles;
+    const std::size_t h = shape.horizontal.size();
+    // An odd step meets all colors in turn.
+    for (std::size_t id = 0; id < shape.tiles.size(); id += step | 1) {
+      const FrameShape::Tile& t = shape.tiles[id];
+      tiles.push_back(
+          {Side{static_cast<std::size_t>(t.north), 1}, Side{h + static_cast<std::size_t>(t.east), 0},
+           Side{static_cast<std::size_t>(t.south), 0}, Side{h + static_cast<std::size_t>(t.west), 1}});
+    }
+    uses.assign(strips.size(), 0.0);
+    for (const auto& tile : tiles)
+      for (const Side& side : tile) uses[side.strip] += 0.5;
+  }
+
+  const MisfitMap& map_of(const Side& side) const {
+    const StripChoices& strip = strips[side.strip];
+    return strip.maps[strip.chosen][side.part];
+  }
+
+  bool choose(std::size_t own) {
+    StripChoices& strip = strips[own];
+    std::vector<double> costs;
+    for (const Candidate& c : strip.candidates) costs.push_back(uses[own] * c.misfit);
+    MisfitMap rest(positions.count());
+    for (const auto& tile : tiles) {
+      std::vector<std::size_t> parts;
+      std::fill(rest.begin(), rest.end(), 0.0f);
+      for (const Side& side : tile) {
+        if (side.strip == own) {
+          parts.push_back(side.part);
+          continue;
+        }
+        const MisfitMap& map = map_of(side);
+        for (std::size_t p = 0; p < rest.size(); ++p) rest[p] += map[p];
+      }
+      if (parts.empty()) continue;
+      for (std::size_t c = 0; c < costs.size(); ++c) {
+        const MisfitMap& a = strip.maps[c][parts.front()];
+        float least = std::numeric_limits<float>::max();
+        if (parts.size() == 1) {
+          for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p]);
+        } else {
+          const MisfitMap& b = strip.maps[c][parts.back()];
+          for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p] + b[p]);
+        }
+        costs[c] += static_cast<double>(least);
+      }
+    }
+    const std::size_t before = strip.chosen;
+    statistics.add(tally, shown_area(own, before), -uses[own]);
+    for (std::size_t c = 0; c < costs.size(); ++c)
+      costs[c] +=
+          options.likeness * misfit_at_start * statistics.distance_with(tally, shown_area(own, c), uses[own]);
+    for (std::size_t c = 0; c < costs.size(); ++c)
+      if (costs[c] < costs[strip.chosen]) strip.chosen = c;
+    statistics.add(tally, shown_area(own, strip.chosen), uses[own]);
+    return strip.chosen != before;
+  }
+
+  // The part of a strip's window that tiles show on average, in texels of the sample.
+  Rect shown_area(std::size_t strip, std::size_t candidate) const {
+    const StripSpace space = space_of(shape, direction(strip));
+    const int shown = std::max(1, space.reach);
+    const SourceTexel at =
+        sum(strips[strip].candidates[candidate].place, space.at(0, space.reach - shown / 2));
+    const SourceTexel extent = space.at(space.length, shown);
+    return {at.x * scale, at.y * scale, extent.x * scale, extent.y * scale};
+  }
+
+  double cost() const {
+    double total = 0.0;
+    for (std::size_t i = 0; i < strips.size(); ++i)
+      total += uses[i] * strips[i].candidates[strips[i].chosen].misfit;
+    for (const auto& tile : tiles) {
+      float least = std::numeric_limits<float>::max();
+      for (std::size_t p = 0; p < positions.count(); ++p)
+        least = std::min(least,
+                         map_of(tile[0])[p] + map_of(tile[1])[p] + map_of(tile[2])[p] + map_of(tile[3])[p]);
+      total += static_cast<double>(least);
+    }
+    return total;
+  }
+
+  const FeatureImage& image;
+  const FeatureImage& transpose;
+  const SampleStatistics& statistics;
+  int scale; // texels of the sample to one of the image
+  const FrameShape& shape;
+  const FrameSearchOptions& options;
+  Positions positions;
+  std::vector<SourceTexel> corners;
+  std::vector<StripChoices> strips;
+  std::vector<std::array<Side, sides>> tiles;
+  SampleStatistics::Tally tally; // of all strips as chosen
+  double misfit_at_start = 0.0;
+  std::vector<double> uses; // tiles per strip, as the north or west of one
+};
+
+void refine(const FeatureImage& image, const FrameShape& shape, FramePlan& plan) {
+  const int margin = std::max(shape.reach, shape.corner_reach);
+  for (SourceTexel& c : plan.corners)
+    c = {std::clamp(2 * c.x, margin, std::max(margin, image.width - margin)),
+         std::clamp(2 * c.y, margin, std::max(margin, image.height - margin))};
+  for (const Direction direction : {Direction::horizontal, Direction::vertical}) {
+    const StripSpace space = space_of(shape, direction);
+    const bool horizontal = direction == Direction::horizontal;
+    auto& places = horizontal ? plan.horizontal : plan.vertical;
+    const auto& ends = horizontal ? shape.horizontal : shape.vertical;
+    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+      const Overlap overlap =
+          end_overlap(image, shape, space, plan.corners[static_cast<std::size_t>(ends[i].first)],
+                      plan.corners[static_cast<std::size_t>(ends[i].second)]);
+      places[i] = best_near(image, overlap, {2 * places[i].x, 2 * places[i].y}, 2);
+    });
+  }
+}
+
+} // namespace
+
+FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleStatistics& statistics,
+                         const FrameShape& shape, const FrameSearchOptions& options,
+                         const Progress& progress) {
+  const int levels = static_cast<int>(pyramid.size());
+  const FrameShape small = halved(shape, levels - 1);
+  const PatchSearch search(pyramid.back());
+  report(progress, "frame search", 0.0);
+  const FeatureImage turned = transposed(pyramid.back());
+  std::vector<FramePlan> plans(static_cast<std::size_t>(options.starts));
+  std::vector<double> costs(plans.size());
+  tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t start) {
+    FrameChoice choice(pyramid.back(), turned, statistics, 1 << (levels - 1), small, search, options, start);
+    costs[start] = choice.improve();
+    plans[start] = choice.plan();
+  });
+  FramePlan best =
+      plans[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
+  for (int level = levels - 2; level >= 0; --level)
+    refine(pyramid[static_cast<std::size_t>(level)], halved(shape, level), best);
+  report(progress, "frame search", 1.0);
+  return best;
+}
+
+} // namespace tilepack

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "tilepack/error/progress.h"
+#include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/frame_search.h"
+#include "tilepack/synth/interiors.h"
+#include "tilepack/synth/mend.h"
+#include "tilepack/synth/polish.h"
+#include "tilepack/synth/synthesize.h"
+
+namespace tilepack {
+
+/// All that decides how a framed set is made, apart from what the user asked for.
+struct FramedSetSettings {
+  double reach = 0.125;         ///< half the width of a strip, of the tile's smaller side
+  double corner_reach = 0.1875; ///< how far corner patches reach along the edges, likewise
+  int smallest_search_tile =
+      32; ///< the frame is searched at the scale at which the smaller side is at least this
+  int smallest_interior_tile = 64; ///< and the insides at this
+  FrameSearchOptions frame;
+  InteriorOptions interiors;
+  MendOptions mend;
+  PolishOptions polish;
+};
+
+/// More effort: more starts, more places tried, more mended.
+FramedSetSettings settings_for(int effort, std::uint64_t seed);
+
+/// Interior::patch: chooses a frame, gives every tile its own inside, joins them by cuts, and mends what is
+/// worst. Both colorings; see FrameShape for the construction.
+SourceMap framed_set(const FeatureImage& image, const SynthOptions& options,
+                     const FramedSetSettings& settings, const Progress& progress = {});
+
+} // namespace tilepack

@@ -1,0 +1,311 @@
+#include "tilepack/synth/interiors.h"
+
+#include "tilepack/synth/cut_move.h"
+#include "tilepack/tileset/random.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace tilepack {
+namespace {
+
+int distance_to_border(Size tile, int x, int y) {
+  return std::min({x, y, tile.width - 1 - x, tile.height - 1 - y});
+}
+
+// What a framed tile shows, and which of its texels show something.
+struct Shown {
+  FeatureImage features;
+  std::vector<std::uint8_t> known;
+};
+
+Shown shown_by(const FeatureImage& image, const FrameShape& shape, const SourceCanvas& canvas) {
+  Shown shown{{canvas.width, canvas.height, image.channels, {}}, {}};
+  shown.features.values.resize(canvas.texels.size() * static_cast<std::size_t>(image.channels));
+  shown.known.resize(canvas.texels.size());
+  for (int y = 0; y < canvas.height; ++y)
+    for (int x = 0; x < canvas.width; ++x) {
+      const std::size_t i = canvas.index(x, y);
+      const SourceTexel s = canvas.texels[i];
+      if (s == no_source || in_guard(shape, x, y)) continue;
+      shown.known[i] = 1;
+      std::copy_n(image.texel(s.x, s.y), image.channels,
+                  shown.features.values.begin() + static_cast<std::ptrdiff_t>(i) * image.channels);
+    }
+  return shown;
+}
+
+Shown halved_shown(const Shown& fine) {
+  Shown coarse{halved(fine.features), {}};
+  for (int y = 0; y < coarse.features.height; ++y)
+    for (int x = 0; x < coarse.features.width; ++x) {
+      const auto known = [&](int i, int j) {
+        return fine.known[static_cast<std::size_t>(2 * y + j) *
+                              static_cast<std::size_t>(fine.features.width) +
+                          static_cast<std::size_t>(2 * x + i)] != 0;
+      };
+      coarse.known.push_back(known(0, 0) && known(1, 0) && known(0, 1) && known(1, 1));
+    }
+  return coarse;
+}
+
+Overlap overlap_of(const Shown& shown) {
+  const FeatureImage& f = shown.features;
+  Overlap overlap(f.width, f.height, f.channels);
+  std::size_t i = 0;
+  for (int y = 0; y < f.height; ++y)
+    for (int x = 0; x < f.width; ++x, ++i)
+      if (shown.known[i]) overlap.add(x, y, f.texel(x, y));
+  return overlap;
+}
+
+// How often each part of the sample is shown, in squares of a few texels of the search level. Weights are per
+// tile of the set: a strip counts for all the tiles it lies in.
+class Usage {
+public:
+  Usage(int image_width, int image_height, int square_side)
+      : square(square_side), columns((image_width + square - 1) / square),
+        rows((image_height + square - 1) / square),
+        count(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
+
+  void add(Rect area, double weight) {
+    for_squares(area, [&](std::size_t i) { count[i] += weight; });
+  }
+
+  void prepare() {
+    const std::size_t stride = static_cast<std::size_t>(columns) + 1;
+    sums.assign(stride * (static_cast<std::size_t>(rows) + 1), 0.0);
+    for (std::size_t j = 0; j < static_cast<std::size_t>(rows); ++j) {
+      double run = 0.0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(columns); ++i) {
+        run += count[j * static_cast<std::size_t>(columns) + i];
+        sums[(j + 1) * stride + i + 1] = sums[j * stride + i + 1] + run;
+      }
+    }
+  }
+
+  // The mean over `area`, of the state when prepare() was called.
+  double mean(Rect area) const {
+    const Bounds b = bounds(area);
+    const std::size_t stride = static_cast<std::size_t>(columns) + 1;
+    const double total = sums[b.last_y * stride + b.last_x] - sums[b.first_y * stride + b.last_x] -
+                         sums[b.last_y * stride + b.first_x] + sums[b.first_y * stride + b.first_x];
+    return total / static_cast<double>((b.last_x - b.first_x) * (b.last_y - b.first_y));
+  }
+
+private:
+  struct Bounds {
+    std::size_t first_x, first_y, last_x, last_y; // last: one past
+  };
+  Bounds bounds(Rect a) const {
+    const auto start = [&](int v) { return std::max(0, (v + square / 2) / square); };
+    const auto end = [&](int v, int first, int limit) {
+      return std::min(limit, std::max(first + 1, (v + square / 2) / square));
+    };
+    const int x = std::min(start(a.x), columns - 1);
+    const int y = std::min(start(a.y), rows - 1);
+    return {static_cast<std::size_t>(x), static_cast<std::size_t>(y),
+            static_cast<std::size_t>(end(a.x + a.width, x, columns)),
+            static_cast<std::size_t>(end(a.y + a.height, y, rows))};
+  }
+  template <typename Visit>
+  void for_squares(Rect area, Visit&& visit) {
+    const Bounds b = bounds(area);
+    for (std::size_t j = b.first_y; j < b.last_y; ++j)
+      for (std::size_t i = b.first_x; i < b.last_x; ++i) visit(j * static_cast<std::size_t>(columns) + i);
+  }
+
+  int square;
+  int columns;
+  int rows;
+  std::vector<double> count;
+  std::vector<double> sums;
+};
+
+struct Choice {
+  SourceTexel place;
+  std::int64_t misfit;
+};
+
+// The best position of each square block of positions, blocks as small as the limit allows.
+std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
+  int block = 1;
+  while (static_cast<std::size_t>((map.width + block - 1) / block) *
+             static_cast<std::size_t>((map.height + block - 1) / block) >
+         limit)
+    ++block;
+  std::vector<Choice> choices;
+  for (int y = 0; y < map.height; y += block)
+    for (int x = 0; x < map.width; x += block) {
+      Choice best{{x, y}, map.at(x, y)};
+      for (int j = y; j < std::min(map.height, y + block); ++j)
+        for (int i = x; i < std::min(map.width, x + block); ++i)
+          if (map.at(i, j) < best.misfit) best = {{i, j}, map.at(i, j)};
+      choices.push_back(best);
+    }
+  return choices;
+}
+
+void add_strips(const FrameShape& shape, const FramePlan& plan, int scale, Usage& usage) {
+  const double h = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.horizontal.size());
+  const double v = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.vertical.size());
+  for (const SourceTexel& p : plan.horizontal)
+    usage.add({p.x / scale, p.y / scale, shape.tile.width / scale, 2 * shape.reach / scale}, h);
+  for (const SourceTexel& p : plan.vertical)
+    usage.add({p.x / scale, p.y / scale, 2 * shape.reach / scale, shape.tile.height / scale}, v);
+}
+
+SampleStatistics::Tally strips_tally(const FrameShape& shape, const FramePlan& plan,
+                                     const SampleStatistics& statistics) {
+  SampleStatistics::Tally tally = statistics.empty();
+  const double h = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.horizontal.size());
+  const double v = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.vertical.size());
+  const int shown = shape.reach; // the cut runs half-way between border and reach
+  for (const SourceTexel& p : plan.horizontal)
+    statistics.add(tally, {p.x, p.y + shape.reach - shown / 2, shape.tile.width, shown}, h);
+  for (const SourceTexel& p : plan.vertical)
+    statistics.add(tally, {p.x + shape.reach - shown / 2, p.y, shown, shape.tile.height}, v);
+  return tally;
+}
+
+} // namespace
+
+bool in_guard(const FrameShape& shape, int x, int y) {
+  return distance_to_border(shape.tile, x, y) < shape.guard;
+}
+
+std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& frame) {
+  std::vector<SourceCanvas> tiles(shape.tiles.size());
+  const auto [w, h] = shape.tile;
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+    const FrameShape::Tile& t = shape.tiles[id];
+    const SourceCanvas& north = frame.horizontal[static_cast<std::size_t>(t.north)];
+    const SourceCanvas& south = frame.horizontal[static_cast<std::size_t>(t.south)];
+    const SourceCanvas& west = frame.vertical[static_cast<std::size_t>(t.west)];
+    const SourceCanvas& east = frame.vertical[static_cast<std::size_t>(t.east)];
+    SourceCanvas canvas(w, h);
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const int from_south = h - 1 - y;
+        const int from_east = w - 1 - x;
+        const int vertical = std::min(y, from_south);
+        const int horizontal = std::min(x, from_east);
+        SourceTexel& texel = canvas.at(x, y);
+        if (std::min(vertical, horizontal) >= shape.reach)
+          texel = no_source;
+        else if (vertical <= horizontal)
+          texel = y <= from_south ? north.at(x, shape.reach + y) : south.at(x, shape.reach - 1 - from_south);
+        else
+          texel = x <= from_east ? west.at(shape.reach + x, y) : east.at(shape.reach - 1 - from_east, y);
+      }
+    tiles[id] = std::move(canvas);
+  });
+  return tiles;
+}
+
+std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyramid, const PatchSearch& search,
+                                          const SampleStatistics& statistics, const FrameShape& shape,
+                                          const FramePlan& plan, const std::vector<SourceCanvas>& framed,
+                                          const InteriorOptions& options, const Progress& progress) {
+  const std::size_t tiles = framed.size();
+  const FeatureImage& small = pyramid.back();
+  const int levels = static_cast<int>(pyramid.size());
+  const int scale = 1 << (levels - 1);
+  report(progress, "interiors", 0.0);
+
+  constexpr std::size_t most_choices = 2'500;
+  constexpr std::size_t most_in_all = 1'000'000;
+  const std::size_t limit = std::min(most_choices, std::max<std::size_t>(64, most_in_all / tiles));
+  std::vector<std::vector<Choice>> choices(tiles);
+  tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
+    Shown shown = shown_by(pyramid.front(), shape, framed[id]);
+    for (int level = 1; level < levels; ++level) shown = halved_shown(shown);
+    choices[id] = block_minima(search.mismatches(overlap_of(shown)), limit);
+  });
+  report(progress, "interiors", 0.5);
+
+  const Size tile{shape.tile.width / scale, shape.tile.height / scale};
+  const int inset = std::min(shape.reach / 2 / scale, std::min(tile.width, tile.height) / 2 - 1);
+  const auto inside = [&](SourceTexel at) {
+    return Rect{at.x + inset, at.y + inset, tile.width - 2 * inset, tile.height - 2 * inset};
+  };
+  Usage usage(small.width, small.height, std::max(1, std::min(tile.width, tile.height) / 16));
+  add_strips(shape, plan, scale, usage);
+  SampleStatistics::Tally tally = strips_tally(shape, plan, statistics);
+  const auto inside_in_sample = [&](SourceTexel at) {
+    const Rect r = inside(at);
+    return Rect{r.x * scale, r.y * scale, r.width * scale, r.height * scale};
+  };
+  double all_misfits = 0.0;
+  for (const auto& list : choices)
+    all_misfits +=
+        static_cast<double>(std::min_element(list.begin(), list.end(), [](const Choice& a, const Choice& b) {
+                              return a.misfit < b.misfit;
+                            })->misfit);
+  const double average = static_cast<double>(tiles) * tile.width * tile.height /
+                         (static_cast<double>(small.width) * small.height);
+  std::vector<SourceTexel> places(tiles);
+  std::vector<bool> placed(tiles, false);
+  std::vector<std::size_t> order(tiles);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (int round = 0; round < options.rounds; ++round) {
+    for (std::size_t i = tiles; i > 1; --i)
+      std::swap(
+          order[i - 1],
+          order[random_below(options.seed, "interior order", static_cast<std::uint64_t>(round) * tiles + i,
+                             static_cast<std::uint32_t>(i))]);
+    for (const std::size_t id : order) {
+      if (placed[id]) {
+        usage.add(inside(places[id]), -1.0);
+        statistics.add(tally, inside_in_sample(places[id]), -1.0);
+      }
+      usage.prepare();
+      double least = std::numeric_limits<double>::max();
+      for (const Choice& choice : choices[id]) {
+        const double cost = static_cast<double>(choice.misfit) *
+                                (1.0 + options.freshness * usage.mean(inside(choice.place)) / average) +
+                            options.likeness * all_misfits *
+                                statistics.distance_with(tally, inside_in_sample(choice.place), 1.0);
+        if (cost < least) {
+          least = cost;
+          places[id] = choice.place;
+        }
+      }
+      usage.add(inside(places[id]), 1.0);
+      statistics.add(tally, inside_in_sample(places[id]), 1.0);
+      placed[id] = true;
+    }
+  }
+
+  tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
+    std::vector<Shown> shown{shown_by(pyramid.front(), shape, framed[id])};
+    for (int level = 1; level < levels - 1; ++level) shown.push_back(halved_shown(shown.back()));
+    for (int level = levels - 2; level >= 0; --level) {
+      const auto l = static_cast<std::size_t>(level);
+      places[id] = best_near(pyramid[l], overlap_of(shown[l]), {2 * places[id].x, 2 * places[id].y}, 2);
+    }
+  });
+  report(progress, "interiors", 1.0);
+  return places;
+}
+
+void join_interiors(const FeatureImage& image, const FrameShape& shape,
+                    const std::vector<SourceTexel>& interiors, std::int64_t bias,
+                    std::vector<SourceCanvas>& tiles) {
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+    SourceCanvas& canvas = tiles[id];
+    Move move{{0, 0, canvas.width, canvas.height}, interiors[id], {}};
+    move.freedom.reserve(canvas.texels.size());
+    for (int y = 0; y < canvas.height; ++y)
+      for (int x = 0; x < canvas.width; ++x)
+        move.freedom.push_back(canvas.at(x, y) == no_source ? Freedom::take
+                               : in_guard(shape, x, y)      ? Freedom::keep
+                                                            : Freedom::free);
+    apply_move(image, canvas, move, bias);
+  });
+}
+
+} // namespace tilepack

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "tilepack/error/progress.h"
+#include "tilepack/synth/frame.h"
+#include "tilepack/synth/patch_search.h"
+#include "tilepack/synth/statistics.h"
+
+#include <vector>
+
+namespace tilepack {
+
+/// A canvas for each tile with the frame's strips along its borders and nothing inside: there, texels further
+/// than `reach` from all borders, the source is `no_source`. At the diagonals a texel belongs to the nearer
+/// strip, the horizontal one where equal.
+std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& frame);
+
+constexpr SourceTexel no_source{-1, -1};
+
+/// How texels of a tile may change once it is framed: those within `guard` of a border never.
+bool in_guard(const FrameShape& shape, int x, int y);
+
+struct InteriorOptions {
+  std::uint64_t seed = 0;
+  double freshness =
+      3.0; ///< how much worse a fit may be to show parts of the sample not shown yet: at 1, twice
+           ///< as bad rather than show again what is already shown as often as the average
+  double likeness = 300.0; ///< weight of the distance between what the set shows and the sample's statistics
+  int rounds = 3;          ///< passes over all tiles
+  std::int64_t bias = 0;   ///< see apply_move
+};
+
+/// Chooses a window of the sample for the inside of each tile, all tiles together: by how it fits the tile's
+/// strips, and by how often its parts are shown already by strips and other tiles. Returns the sample texel
+/// at each tile's north-west texel; the whole tile lies inside the sample.
+///
+/// `search` searches the last level of `pyramid`; its finds are refined in the others.
+std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyramid, const PatchSearch& search,
+                                          const SampleStatistics& statistics, const FrameShape& shape,
+                                          const FramePlan& plan, const std::vector<SourceCanvas>& framed,
+                                          const InteriorOptions& options, const Progress& progress = {});
+
+/// Joins each tile's window to its strips by one closed cut.
+void join_interiors(const FeatureImage& image, const FrameShape& shape,
+                    const std::vector<SourceTexel>& interiors, std::int64_t bias,
+                    std::vector<SourceCanvas>& tiles);
+
+} // namespace tilepack

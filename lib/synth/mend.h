@@ -1,0 +1,25 @@
+#pragma once
+
+#include "tilepack/synth/patch_search.h"
+#include "tilepack/synth/source_canvas.h"
+
+#include <vector>
+
+namespace tilepack {
+
+struct MendOptions {
+  int spots = 12;  ///< places mended in a canvas
+  int window = 28; ///< side of the square of new material, texels
+  int tries = 2;   ///< windows of the sample tried at each
+  std::int64_t bias = 0;
+};
+
+/// Re-places what joins worst: again and again the square with the highest seam costs is looked up in the
+/// whole sample, and the windows most like what it shows now, other than those it is made of, are laid over
+/// it along best cuts. The seam energy never rises.
+///
+/// `pyramid[0]` is the sample; `search` searches the last level. `fixed`: texels that must stay, 1 each.
+void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search,
+                const std::vector<std::uint8_t>& fixed, const MendOptions& options, SourceCanvas& canvas);
+
+} // namespace tilepack

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "tilepack/synth/frame.h"
+#include "tilepack/synth/patch_search.h"
+
+namespace tilepack {
+
+enum class Direction { horizontal, vertical };
+
+/// A strip of either direction in one frame of reference: `along` its edge, `across` it.
+struct StripSpace {
+  Direction direction = Direction::horizontal;
+  int length = 0; ///< along: the tile's side
+  int reach = 0;  ///< across: half the width
+
+  int width() const { return direction == Direction::horizontal ? length : 2 * reach; }
+  int height() const { return direction == Direction::horizontal ? 2 * reach : length; }
+  /// (along, across) as (x, y) of the strip's window.
+  SourceTexel at(int along, int across) const {
+    return direction == Direction::horizontal ? SourceTexel{along, across} : SourceTexel{across, along};
+  }
+};
+
+StripSpace space_of(const FrameShape& shape, Direction direction);
+
+inline SourceTexel sum(SourceTexel a, SourceTexel b) {
+  return {a.x + b.x, a.y + b.y};
+}
+
+/// Where the corner patch `corner` (see FramePlan) at one of its ends puts the strip's north-west texel, as a
+/// place in the sample.
+SourceTexel corner_origin(const StripSpace& space, SourceTexel corner, bool second);
+
+/// What a strip's window overlaps at its two ends.
+Overlap end_overlap(const FeatureImage& image, const FrameShape& shape, const StripSpace& space,
+                    SourceTexel first, SourceTexel second);
+
+} // namespace tilepack
