@@ -1,3 +1,4 @@
+#include "tilepack/mip/shared_border.h"
 #include "tilepack/verify/structure_checks.h"
 #include "tilepack/verify/tile_border.h"
 
@@ -122,7 +123,7 @@ void compare_group(const LevelView& view, const std::vector<Member>& group, Texe
     }
     if (differing == 0) continue; // NaN beside NaN: another rule's matter
     const bool integer = view.map->depth == Depth::u8 || view.map->depth == Depth::u16;
-    const TexelPlace spot = texel_at(static_cast<int>(first));
+    const Place spot = texel_at(static_cast<int>(first));
     const Rect& rect = *view.rects[member.tile];
     issues.push_back(
         {rule_at(static_cast<int>(first)),
@@ -158,6 +159,8 @@ int ceil_shift(int value, int shift) {
   return (value + (1 << shift) - 1) >> shift;
 }
 
+// A box of guarded texels alone is equal too, so at coarser levels guard >> level rows are, and the free
+// squares at the corners grow to whole texels.
 void check_guard(const LevelView& view, std::vector<Issue>& issues) {
   const Pack& pack = *view.pack;
   const int rows = pack.guard >> view.level;
@@ -169,34 +172,52 @@ void check_guard(const LevelView& view, std::vector<Issue>& issues) {
           view, {side, rows, skip},
           [&](int row) { return row == 0 && view.level == 0 ? Rule::edge_texels : Rule::guard_texels; },
           issues);
-  } else if (view.level == 0 && pack.guard == 0) {
+  } else if (view.level == 0) {
     for (const Side side : all_sides)
       check_strip(
           view, {side, 1, 1}, [](int) { return Rule::edge_texels_unpromised; }, issues);
   }
 }
 
-// Corner texels: one value a corner color, or one for all tiles where edges are colored.
-void check_corners(const LevelView& view, std::vector<Issue>& issues) {
+bool in_corner(Size tile, Place place) {
+  return (place.x == 0 || place.x == tile.width - 1) && (place.y == 0 || place.y == tile.height - 1);
+}
+
+// Which border the places of a group lie on, from the second: the first may be a corner of two.
+std::string border_name(const LevelView& view, const SharedTexels& group, int tile) {
+  const Size size = view.tile;
+  const Place place = group.places[group.places.size() / 2];
+  if (in_corner(size, place) || size.width == 1 || size.height == 1)
+    return fmt::format("texel ({}, {}) of the tile", place.x, place.y);
+  const Side side = place.y == 0                 ? Side::north
+                    : place.y == size.height - 1 ? Side::south
+                    : place.x == 0               ? Side::west
+                                                 : Side::east;
+  return border_text(view.pack->tiles, tile, side);
+}
+
+// What mip/shared_border.h says of sanitized levels.
+void check_sanitized(const LevelView& view, std::vector<Issue>& issues) {
   const Pack& pack = *view.pack;
-  constexpr std::string_view names[] = {"north-west", "north-east", "south-west", "south-east"};
-  for (int corner = 0; corner < 4; ++corner) {
-    const TexelPlace spot{corner % 2 == 0 ? 0 : view.tile.width - 1, corner < 2 ? 0 : view.tile.height - 1};
-    std::map<int, std::vector<Member>> groups;
-    for (int tile = 0; tile < tile_count(pack.tiles); ++tile) {
+  if (view.level == 0 || exact_through_guard(pack.guard, view.level)) return;
+  for (const SharedTexels& shared : shared_border(pack.tiles, view.tile, pack.mip_mode)) {
+    if (shared.places.empty()) continue;
+    std::vector<Member> group;
+    for (const int tile : shared.tiles) {
       if (!view.rects[tile]) continue;
-      int color = 0;
-      if (const auto* corners = std::get_if<std::vector<CornerTile>>(&pack.tiles)) {
-        const CornerTile& t = (*corners)[tile];
-        color = corner == 0 ? t.nw : corner == 1 ? t.ne : corner == 2 ? t.sw : t.se;
+      Member& member = group.emplace_back(Member{tile, {}});
+      for (const Place place : shared.places) {
+        const auto texel = view.image->texel(view.rects[tile]->x + place.x, view.rects[tile]->y + place.y);
+        member.values.insert(member.values.end(), texel.begin(), texel.end());
       }
-      const auto texel = view.image->texel(view.rects[tile]->x + spot.x, view.rects[tile]->y + spot.y);
-      groups[color].push_back({tile, {texel.begin(), texel.end()}});
     }
-    for (const auto& [color, group] : groups)
-      compare_group(
-          view, group, [&](int) { return spot; }, [](int) { return Rule::sanitized_corners; },
-          [&](int) { return fmt::format("{} corner", names[corner]); }, issues);
+    compare_group(
+        view, group, [&](int i) { return shared.places[static_cast<std::size_t>(i)]; },
+        [&](int i) {
+          return in_corner(view.tile, shared.places[static_cast<std::size_t>(i)]) ? Rule::sanitized_corners
+                                                                                  : Rule::sanitized_edges;
+        },
+        [&](int tile) { return border_name(view, shared, tile); }, issues);
   }
 }
 
@@ -213,13 +234,7 @@ std::vector<Issue> check_level(const LevelView& view) {
                                         : "a half float",
         [depth = view.map->depth](float v) { return !std::isfinite(v) || quantised(v, depth) == v; }, issues);
   check_guard(view, issues);
-  const MipMode mode = view.pack->mip_mode;
-  const bool sanitized = !exact_through_guard(view.pack->guard, view.level);
-  if (sanitized && (mode == MipMode::edges || mode == MipMode::corners))
-    for (const Side side : all_sides)
-      check_strip(
-          view, {side, 1, 1}, [](int) { return Rule::sanitized_edges; }, issues);
-  if (sanitized && mode == MipMode::corners) check_corners(view, issues);
+  check_sanitized(view, issues);
   return issues;
 }
 

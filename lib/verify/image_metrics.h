@@ -15,8 +15,8 @@ struct ImageDifference {
   std::int64_t differing = 0;      ///< texels with a channel that differs
   std::int64_t not_comparable = 0; ///< texels where a value of either image is NaN or infinite and the other
                                    ///< is not the same; left out of all figures below
-  double largest = 0; ///< largest absolute difference of a value, in units
-  int largest_x = 0;  ///< the texel where it is: the first, row by row
+  double largest = 0;              ///< largest absolute difference of a value, in units
+  int largest_x = 0;               ///< the texel where it is: the first, row by row
   int largest_y = 0;
   int largest_channel = 0;
   double mean = 0;            ///< mean absolute difference, in units

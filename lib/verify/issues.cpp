@@ -84,7 +84,8 @@ constexpr std::array rule_table{
              "The border pops or shows a seam from a distance.", "Build the levels again with --mips edges."},
     RuleText{Rule::sanitized_corners, error, "at a coarser level, corner texels differ",
              "Corners flicker from a distance.", "Build the levels again with --mips corners."},
-    RuleText{Rule::edge_texels_unpromised, warning, "tiles of one edge color differ along that edge, and no guard is promised",
+    RuleText{Rule::edge_texels_unpromised, warning,
+             "tiles of one edge color differ along that edge, and no guard is promised",
              "Filtering across the border reads texels of another tile; the pack promises no guard band.",
              "Bake with --guard 1 or more."},
 

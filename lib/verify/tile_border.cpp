@@ -72,7 +72,7 @@ int texel_count(Size tile, BorderStrip strip) {
   return strip.rows * length(tile, strip);
 }
 
-TexelPlace texel_of(Size tile, BorderStrip strip, int index) {
+Place texel_of(Size tile, BorderStrip strip, int index) {
   const int row = index / length(tile, strip);
   const int along = index % length(tile, strip) + strip.skip;
   switch (strip.side) {
@@ -94,7 +94,7 @@ std::vector<float> values_of(const Image& image, Rect tile, BorderStrip strip) {
   std::vector<float> values;
   values.reserve(static_cast<std::size_t>(count) * static_cast<std::size_t>(image.channels()));
   for (int i = 0; i < count; ++i) {
-    const TexelPlace place = texel_of(size, strip, i);
+    const Place place = texel_of(size, strip, i);
     const auto texel = image.texel(tile.x + place.x, tile.y + place.y);
     values.insert(values.end(), texel.begin(), texel.end());
   }

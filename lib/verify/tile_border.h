@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/image.h"
+#include "tilepack/mip/shared_border.h"
 #include "tilepack/tileset/tile_colors.h"
 
 #include <string>
@@ -34,11 +35,7 @@ int texel_count(Size tile, BorderStrip strip);
 
 /// Number `index` of the strip's texels in the tile: outermost row first, then from west to east or from
 /// north to south.
-struct TexelPlace {
-  int x = 0;
-  int y = 0;
-};
-TexelPlace texel_of(Size tile, BorderStrip strip, int index);
+Place texel_of(Size tile, BorderStrip strip, int index);
 
 /// All channels of the strip's texels in that order; `tile` is the tile's rectangle in `image`.
 std::vector<float> values_of(const Image& image, Rect tile, BorderStrip strip);
