@@ -27,6 +27,8 @@ struct Verb {
 };
 
 Verb bake_verb();
+Verb inspect_verb();
+Verb compare_verb();
 Verb render_verb();
 
 /// All verbs, in the order of the help listing.

@@ -7,6 +7,8 @@ namespace tilepack::cli {
 std::span<const Verb> verb_table() {
   static const std::array table{
       bake_verb(),
+      inspect_verb(),
+      compare_verb(),
       render_verb(),
   };
   return table;

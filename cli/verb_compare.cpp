@@ -1,0 +1,96 @@
+#include "verb.h"
+
+#include "tilepack/image/image_file.h"
+#include "tilepack/pack/pack_read.h"
+#include "tilepack/verify/comparison.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tilepack::cli {
+namespace {
+
+struct CompareArguments {
+  std::string a;
+  std::string b;
+  std::string format = "text";
+  std::string picture;
+  double gain = 8;
+  CompareLimits limits;
+};
+
+bool names_pack(const std::string& name) {
+  std::error_code unused;
+  return std::filesystem::is_directory(name, unused) || std::filesystem::path(name).extension() == ".json";
+}
+
+void write_picture(const CompareArguments& arguments, const ImageFile& a, const ImageFile& b) {
+  if (a.image.size() != b.image.size() || a.image.channels() != b.image.channels())
+    throw Error(ErrorKind::invalid_content, "--picture",
+                "the images differ in size or channels; none is written");
+  write_image(arguments.picture, difference_picture(a.image, b.image, arguments.gain), Depth::u8,
+              Encoding::srgb);
+}
+
+int run_compare(const CompareArguments& arguments, Console& console) {
+  const bool packs = names_pack(arguments.a);
+  if (packs != names_pack(arguments.b))
+    throw Error(ErrorKind::usage, "",
+                fmt::format("{} is {} and {} is {}; two images or two packs can be compared", arguments.a,
+                            packs ? "a pack" : "an image", arguments.b, packs ? "an image" : "a pack"));
+  if (packs && !arguments.picture.empty())
+    throw Error(ErrorKind::usage, "--picture", "is for two images; name two of the packs' files instead");
+  Comparison comparison;
+  if (packs) {
+    comparison = compared(read_pack(arguments.a), read_pack(arguments.b));
+  } else {
+    const ImageFile a = read_image(arguments.a);
+    const ImageFile b = read_image(arguments.b);
+    comparison = compared(a, b);
+    if (!arguments.picture.empty()) write_picture(arguments, a, b);
+  }
+  comparison.a = arguments.a;
+  comparison.b = arguments.b;
+  console.print(arguments.format == "json" ? comparison_json(comparison, arguments.limits)
+                                           : comparison_text(comparison, arguments.limits));
+  return within(comparison, arguments.limits) ? 0 : exit_code(ErrorKind::check_failed);
+}
+
+Action declare_compare(CLI::App& app) {
+  auto arguments = std::make_shared<CompareArguments>();
+  app.add_option("A", arguments->a, "image, or pack (folder or pack.json)")->required()->type_name("");
+  app.add_option("B", arguments->b, "of the same kind")->required()->type_name("");
+  app.add_option("--format", arguments->format, "of the report on stdout")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->type_name("text|json");
+  app.add_option("--max-difference", arguments->limits.max_difference,
+                 "alike if no value differs by more: 1/255 for integer images, plain for float")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  app.add_option("--min-psnr", arguments->limits.min_psnr, "alike from this PSNR on, in dB")->type_name("DB");
+  app.add_option("--min-ssim", arguments->limits.min_ssim, "alike from this SSIM on")
+      ->check(CLI::Range(-1.0, 1.0))
+      ->type_name("S");
+  app.add_option("--picture", arguments->picture, "write the difference, magnified, as a PNG")
+      ->type_name("FILE.png");
+  app.add_option("--gain", arguments->gain, "how much the picture magnifies; 8 unless given")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  return [arguments](Console& console) { return run_compare(*arguments, console); };
+}
+
+} // namespace
+
+Verb compare_verb() {
+  return {"compare", "measure how far two images or two packs are apart",
+          "  tilepack compare before.png after.png --picture difference.png\n"
+          "  tilepack compare old.pack new.pack --max-difference 1\n"
+          "Exit code 0 if equal, or within all limits given; 5 if not.\n",
+          declare_compare};
+}
+
+} // namespace tilepack::cli

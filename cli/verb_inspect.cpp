@@ -1,0 +1,132 @@
+#include "verb.h"
+
+#include "tilepack/error/nearest_name.h"
+#include "tilepack/image/image_file.h"
+#include "tilepack/pack/pack_read.h"
+#include "tilepack/verify/pack_picture.h"
+#include "tilepack/verify/pack_summary.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tilepack::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InspectArguments {
+  std::string pack;
+  std::string format = "text";
+  std::string picture;
+  std::string preview;
+  std::string map;
+  std::optional<int> level;
+  int tiles = 8;
+  int worst = 3;
+  bool bare = false;
+};
+
+int map_named(const Pack& pack, const std::string& name) {
+  std::vector<std::string> known;
+  for (std::size_t m = 0; m < pack.maps.size(); ++m) {
+    if (name.empty() || pack.maps[m].name == name) return static_cast<int>(m);
+    known.push_back(pack.maps[m].name);
+  }
+  const std::string nearest = nearest_name(name, known);
+  std::string list;
+  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
+  throw Error(ErrorKind::usage, "--map",
+              fmt::format("the pack has no map '{}'{}; it has {}", name,
+                          nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest), list));
+}
+
+void write_text_file(const std::string& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream)
+    throw Error(ErrorKind::cannot_write, file, "the picture can't be written; is its folder there?");
+}
+
+void write_drawing(const std::string& file, const Drawing& drawing) {
+  const std::string extension = fs::path(file).extension().string();
+  if (extension == ".svg")
+    write_text_file(file, svg(drawing));
+  else if (extension == ".png")
+    write_image(file, rasterised(drawing), Depth::u8, Encoding::srgb);
+  else
+    throw Error(ErrorKind::usage, file, "pictures are written as .png or .svg");
+}
+
+std::map<std::string, std::uint64_t> bytes_of_files(const PackDescription& description,
+                                                    const std::string& pack) {
+  const fs::path json = pack_json_of(pack);
+  std::map<std::string, std::uint64_t> bytes;
+  std::vector<std::string> files = description.all_files();
+  files.push_back(json.filename().string());
+  for (const std::string& file : files) {
+    std::error_code missing;
+    const auto size = fs::file_size(json.parent_path() / file, missing);
+    if (!missing) bytes[file] = size;
+  }
+  return bytes;
+}
+
+int run_inspect(const InspectArguments& arguments, Console& console) {
+  PackSummary summary{arguments.pack, read_pack_description(arguments.pack), {}, {}};
+  summary.file_bytes = bytes_of_files(summary.description, arguments.pack);
+  const Pack pack = read_pack(arguments.pack);
+  PackPictureOptions options;
+  options.map = map_named(pack, arguments.map);
+  options.level = arguments.level;
+  options.marks = !arguments.bare;
+  if (!arguments.picture.empty()) write_drawing(arguments.picture, pack_picture(pack, options));
+  if (!arguments.preview.empty())
+    write_drawing(arguments.preview, expansion_picture(pack, arguments.tiles, arguments.tiles, options));
+  summary.seams = seam_figures(pack, options.map, 0, arguments.worst);
+  console.print(arguments.format == "json" ? summary_json(summary) : summary_text(summary));
+  return 0;
+}
+
+Action declare_inspect(CLI::App& app) {
+  auto arguments = std::make_shared<InspectArguments>();
+  app.add_option("PACK", arguments->pack, "folder or pack.json")->required()->type_name("");
+  app.add_option("--format", arguments->format, "of the summary on stdout")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->type_name("text|json");
+  app.add_option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
+      ->type_name("FILE.png|.svg");
+  app.add_option("--preview", arguments->preview,
+                 "draw a piece of the virtual texture with its colors and ids")
+      ->type_name("FILE.png|.svg");
+  app.add_option("--tiles", arguments->tiles, "tiles a side of the preview; 8 unless given")
+      ->check(CLI::Range(1, 64))
+      ->type_name("N");
+  app.add_option("--map", arguments->map, "the map drawn and measured; the first unless given")
+      ->type_name("NAME");
+  app.add_option("--level", arguments->level,
+                 "the level drawn; the finest that fits 4096 pixels unless given")
+      ->check(CLI::Range(0, 30))
+      ->type_name("L");
+  app.add_option("--worst", arguments->worst, "how many of the worst borders are listed; 3 unless given")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
+  app.add_flag("--bare", arguments->bare, "draw without colors and ids");
+  return [arguments](Console& console) { return run_inspect(*arguments, console); };
+}
+
+} // namespace
+
+Verb inspect_verb() {
+  return {"inspect", "show what a pack holds, in text, JSON or pictures",
+          "  tilepack inspect gravel.pack --picture pack.png --preview texture.png\n"
+          "  tilepack inspect gravel.pack --format json\n",
+          declare_inspect};
+}
+
+} // namespace tilepack::cli

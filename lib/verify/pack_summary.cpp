@@ -1,0 +1,293 @@
+#include "tilepack/verify/pack_summary.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace tilepack {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using LevelFiles = std::vector<PackDescription::LevelFile>;
+
+constexpr int widest_table = 8; // columns of the layout that still fit a line
+
+int bytes_a_channel(Depth depth) {
+  switch (depth) {
+  case Depth::u8:
+    return 1;
+  case Depth::u16:
+  case Depth::f16:
+    return 2;
+  case Depth::f32:
+    break;
+  }
+  return 4;
+}
+
+std::uint64_t bytes_of(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>& files) {
+  std::uint64_t bytes = 0;
+  for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m)
+    for (const auto& level : files[m])
+      bytes += static_cast<std::uint64_t>(level.size.width) * static_cast<std::uint64_t>(level.size.height) *
+               static_cast<std::uint64_t>(maps[m].channels * bytes_a_channel(maps[m].depth));
+  return bytes;
+}
+
+std::string bytes_text(double bytes) {
+  const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB", "ZB"};
+  std::size_t unit = 0;
+  while (bytes >= 1000 && unit + 1 < std::size(units)) {
+    bytes /= 1000;
+    ++unit;
+  }
+  return unit == 0 ? fmt::format("{:.0f} B", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+std::uint64_t file_bytes(const PackSummary& summary, const LevelFiles& files) {
+  std::uint64_t bytes = 0;
+  for (const auto& level : files) {
+    const auto found = summary.file_bytes.find(level.file);
+    if (found != summary.file_bytes.end()) bytes += found->second;
+  }
+  return bytes;
+}
+
+std::uint64_t all_file_bytes(const PackSummary& summary) {
+  std::uint64_t bytes = 0;
+  for (const auto& [file, size] : summary.file_bytes) bytes += size;
+  return bytes;
+}
+
+std::string colors_of(const TileColors& tiles, int tile) {
+  if (const auto* edges = std::get_if<std::vector<EdgeTile>>(&tiles)) {
+    const EdgeTile& t = (*edges)[static_cast<std::size_t>(tile)];
+    return fmt::format("{}{}{}{}", t.north, t.east, t.south, t.west);
+  }
+  const CornerTile& t = std::get<std::vector<CornerTile>>(tiles)[static_cast<std::size_t>(tile)];
+  return fmt::format("{}{}{}{}", t.nw, t.ne, t.sw, t.se);
+}
+
+bool edge_colored(const Pack& pack) {
+  return coloring_of(pack.tiles) == Coloring::edge;
+}
+
+// The grid as it lies in the texture: id and colors a cell.
+std::string grid_text(const Pack& pack) {
+  const Layout& layout = pack.layout;
+  std::string text = fmt::format("          cells: tile id, colors {}\n",
+                                 edge_colored(pack) ? "north east south west" : "nw ne sw se");
+  if (layout.columns > widest_table || layout.rows > 4 * widest_table)
+    return "          (the grid is too large for a table; --picture draws it)\n";
+  std::vector<std::string> cells(
+      static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows), "-");
+  for (const Cell& cell : layout.cells)
+    cells[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(layout.columns) +
+          static_cast<std::size_t>(cell.column)] =
+        fmt::format("{:>4} {}", cell.tile, colors_of(pack.tiles, cell.tile));
+  for (int row = 0; row < layout.rows; ++row) {
+    text += "        ";
+    for (int column = 0; column < layout.columns; ++column)
+      text += fmt::format("{:>10}", cells[static_cast<std::size_t>(row * layout.columns + column)]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string maps_text(const PackSummary& summary, const std::vector<PackedMap>& maps,
+                      const std::vector<LevelFiles>& files) {
+  std::string text;
+  for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
+    if (files[m].empty()) continue;
+    const PackedMap& map = maps[m];
+    const Size fine = files[m].front().size;
+    const Size coarse = files[m].back().size;
+    text += fmt::format(
+        "          {}: role {}, {}, {} channel{}, {}; {} level{}, {} x {} down to {} x {}; {} in files\n",
+        map.name, name_of(map.role), name_of(map.encoding), map.channels, map.channels == 1 ? "" : "s",
+        name_of(map.depth), files[m].size(), files[m].size() == 1 ? "" : "s", fine.width, fine.height,
+        coarse.width, coarse.height, bytes_text(static_cast<double>(file_bytes(summary, files[m]))));
+  }
+  return text;
+}
+
+std::string seams_text(const SeamFigures& seams) {
+  std::string text =
+      fmt::format("borders   step across over step inside tiles: {:.3f} (1 can't be seen), {} pairs\n",
+                  seams.seam, seams.pairs);
+  if (!seams.worst.empty()) text += fmt::format("          worst {} texels of a border:\n", seam_window);
+  for (const BorderStep& border : seams.worst)
+    text += fmt::format("            tile {} and tile {} to its {}: {:.2f} from texel {} on ({:.2f} along "
+                        "the whole border)\n",
+                        border.tile, border.neighbour, name_of(border.side), border.window, border.window_at,
+                        border.ratio);
+  return text;
+}
+
+std::string mapping_text(const Pack& pack) {
+  const VirtualSize& size = pack.mapping.size;
+  std::string kind(name_of(pack.mapping.kind));
+  if (pack.mapping.kind == MappingKind::permutation)
+    kind += fmt::format(" of {} entries", pack.mapping.table.size());
+  if (pack.mapping.kind == MappingKind::mix) kind += fmt::format(", seed {}", pack.mapping.seed);
+  return fmt::format("mapping   {}; {} x {} tiles = {} x {} texels\n", kind, size.width, size.height,
+                     size.width * pack.tile_size.width, size.height * pack.tile_size.height);
+}
+
+Json maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
+               const std::vector<LevelFiles>& files) {
+  Json list = Json::array();
+  for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
+    Json levels = Json::array();
+    for (const auto& level : files[m]) {
+      const auto found = summary.file_bytes.find(level.file);
+      levels.push_back({{"file", level.file},
+                        {"size", {level.size.width, level.size.height}},
+                        {"bytes", found == summary.file_bytes.end() ? Json(nullptr) : Json(found->second)}});
+    }
+    list.push_back({{"name", maps[m].name},
+                    {"role", name_of(maps[m].role)},
+                    {"encoding", name_of(maps[m].encoding)},
+                    {"depth", name_of(maps[m].depth)},
+                    {"channels", maps[m].channels},
+                    {"levels", std::move(levels)}});
+  }
+  return list;
+}
+
+Json tiles_json(const Pack& pack) {
+  Json list = Json::array();
+  std::vector<const Cell*> cell_of(static_cast<std::size_t>(tile_count(pack.tiles)), nullptr);
+  for (const Cell& cell : pack.layout.cells) cell_of[static_cast<std::size_t>(cell.tile)] = &cell;
+  for (int tile = 0; tile < tile_count(pack.tiles); ++tile) {
+    Json json{{"id", tile}};
+    if (const auto* edges = std::get_if<std::vector<EdgeTile>>(&pack.tiles)) {
+      const EdgeTile& t = (*edges)[static_cast<std::size_t>(tile)];
+      json.update({{"north", t.north}, {"east", t.east}, {"south", t.south}, {"west", t.west}});
+    } else {
+      const CornerTile& t = std::get<std::vector<CornerTile>>(pack.tiles)[static_cast<std::size_t>(tile)];
+      json.update({{"nw", t.nw}, {"ne", t.ne}, {"sw", t.sw}, {"se", t.se}});
+    }
+    if (const Cell* cell = cell_of[static_cast<std::size_t>(tile)])
+      json.update({{"column", cell->column}, {"row", cell->row}});
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Json seams_json(const SeamFigures& seams) {
+  Json worst = Json::array();
+  for (const BorderStep& border : seams.worst)
+    worst.push_back({{"tile", border.tile},
+                     {"side", name_of(border.side)},
+                     {"neighbour", border.neighbour},
+                     {"ratio", border.ratio},
+                     {"window", border.window},
+                     {"window_at", border.window_at}});
+  return {{"pairs", seams.pairs},
+          {"seam", seams.seam},
+          {"window_texels", seam_window},
+          {"worst", std::move(worst)}};
+}
+
+} // namespace
+
+std::uint64_t bytes_in_memory(const Pack& pack, const PackDescription& description) {
+  return bytes_of(pack.maps, description.map_files) +
+         (pack.corner_pack ? bytes_of(pack.corner_pack->maps, description.corner_files) : 0);
+}
+
+double bytes_stored_whole(const Pack& pack) {
+  double texels = 0;
+  for (int level = 0; level < pack.tile_levels; ++level) {
+    const Size tile = level_size(pack.tile_size, level);
+    texels += static_cast<double>(pack.mapping.size.width) * tile.width *
+              (static_cast<double>(pack.mapping.size.height) * tile.height);
+  }
+  double bytes = 0;
+  for (const PackedMap& map : pack.maps) bytes += texels * map.channels * bytes_a_channel(map.depth);
+  return bytes;
+}
+
+std::string summary_text(const PackSummary& summary) {
+  const PackDescription& description = summary.description;
+  const Pack& pack = description.pack;
+  const Size tile = pack.tile_size;
+  const std::string colors = edge_colored(pack) ? fmt::format("{} horizontal and {} vertical edge colors",
+                                                              pack.colors.horizontal, pack.colors.vertical)
+                                                : fmt::format("{} corner colors", pack.colors.corner);
+  std::string text = fmt::format("{}\ntiles     {} of {} x {} texels, {}\n", summary.subject,
+                                 tile_count(pack.tiles), tile.width, tile.height, colors);
+  text += fmt::format("layout    {}, {} x {} cells = {} x {} texels\n", name_of(pack.layout.kind),
+                      pack.layout.columns, pack.layout.rows, pack.layout.columns * tile.width,
+                      pack.layout.rows * tile.height);
+  text += grid_text(pack);
+  text += "maps\n" + maps_text(summary, pack.maps, description.map_files);
+  if (pack.corner_pack) {
+    text += fmt::format("corners   a pack of {} x {} cells for lattice points\n", pack.corner_pack->columns,
+                        pack.corner_pack->rows);
+    text += maps_text(summary, pack.corner_pack->maps, description.corner_files);
+  }
+  text += mapping_text(pack);
+  text += fmt::format("mips      {}, {} level{}, guard {} texels\n", name_of(pack.mip_mode), pack.tile_levels,
+                      pack.tile_levels == 1 ? "" : "s", pack.guard);
+  const auto in_memory = static_cast<double>(bytes_in_memory(pack, description));
+  const double whole = bytes_stored_whole(pack);
+  text += fmt::format("size      {} in {} files; {} in memory, uncompressed; a texture of the virtual size "
+                      "{} ({:.4g} times)\n",
+                      bytes_text(static_cast<double>(all_file_bytes(summary))), summary.file_bytes.size(),
+                      bytes_text(in_memory), bytes_text(whole), in_memory > 0 ? whole / in_memory : 0);
+  if (summary.seams) text += seams_text(*summary.seams);
+  text += fmt::format("made by   {} {}, seed {}\n", pack.generator.name, pack.generator.version,
+                      pack.generator.seed);
+  std::string options;
+  for (const auto& [name, value] : pack.generator.options) {
+    if (!options.empty()) options += ", ";
+    options += name + " " + value;
+  }
+  if (!options.empty()) text += "          " + options + "\n";
+  return text;
+}
+
+std::string summary_json(const PackSummary& summary) {
+  const PackDescription& description = summary.description;
+  const Pack& pack = description.pack;
+  const bool edge = edge_colored(pack);
+  Json colors = edge ? Json{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
+                     : Json{{"corner", pack.colors.corner}};
+  Json options = Json::object();
+  for (const auto& [name, value] : pack.generator.options) options[name] = value;
+  const std::uint64_t in_memory = bytes_in_memory(pack, description);
+  Json json{
+      {"pack", summary.subject},
+      {"tile_size", {pack.tile_size.width, pack.tile_size.height}},
+      {"coloring", edge ? "edge" : "corner"},
+      {"colors", std::move(colors)},
+      {"layout",
+       {{"kind", name_of(pack.layout.kind)}, {"columns", pack.layout.columns}, {"rows", pack.layout.rows}}},
+      {"tiles", tiles_json(pack)},
+      {"maps", maps_json(summary, pack.maps, description.map_files)},
+      {"mapping",
+       {{"kind", name_of(pack.mapping.kind)},
+        {"virtual_size", {pack.mapping.size.width, pack.mapping.size.height}}}},
+      {"mips", {{"mode", name_of(pack.mip_mode)}, {"levels", pack.tile_levels}, {"guard", pack.guard}}},
+      {"bytes",
+       {{"files", all_file_bytes(summary)},
+        {"file_count", summary.file_bytes.size()},
+        {"memory", in_memory},
+        {"stored_whole", bytes_stored_whole(pack)}}},
+      {"generator",
+       {{"name", pack.generator.name},
+        {"version", pack.generator.version},
+        {"seed", pack.generator.seed},
+        {"options", std::move(options)}}}};
+  if (pack.corner_pack)
+    json["corner_pack"] = {{"columns", pack.corner_pack->columns},
+                           {"rows", pack.corner_pack->rows},
+                           {"maps", maps_json(summary, pack.corner_pack->maps, description.corner_files)}};
+  if (summary.seams) json["seams"] = seams_json(*summary.seams);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace tilepack
