@@ -4,40 +4,19 @@
 #include "tilepack/image/image_format.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/file_name.h"
+#include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_json.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <fstream>
 
 namespace tilepack {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::uintmax_t largest_json = std::uintmax_t{16} << 20;
-
-std::string text_of(const fs::path& file) {
-  std::error_code fault;
-  const fs::file_status status = fs::status(file, fault);
-  if (!fs::exists(status))
-    throw Error(ErrorKind::cannot_read, file.string(),
-                "there is no such file; a pack is a folder with a pack.json");
-  if (!fs::is_regular_file(status)) throw Error(ErrorKind::cannot_read, file.string(), "is no plain file");
-  const std::uintmax_t size = fs::file_size(file, fault);
-  if (!fault && size > largest_json)
-    throw Error(ErrorKind::invalid_content, file.string(),
-                fmt::format("is {} bytes long; a pack.json has at most {}", size, largest_json));
-  std::ifstream stream(file, std::ios::binary);
-  std::string text(fault ? 0 : static_cast<std::size_t>(size), '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (fault || !stream)
-    throw Error(ErrorKind::cannot_read, file.string(), "can't be read; check its permissions");
-  return text;
-}
 
 // What pack.json announces, against the header of the file: checked before its texels take any memory.
 void check_header(const fs::path& file, Size size, int channels, std::span<const Depth> depths) {
@@ -105,12 +84,12 @@ fs::path pack_json_of(const fs::path& folder_or_json) {
 
 PackDescription read_pack_description(const fs::path& folder_or_json) {
   const fs::path json = pack_json_of(folder_or_json);
-  return parsed_pack_json(text_of(json), json.string());
+  return parsed_pack_json(pack_json_text(json), json.string());
 }
 
 Pack read_pack(const fs::path& folder_or_json) {
   const fs::path json = pack_json_of(folder_or_json);
-  const fs::path folder = json.has_parent_path() ? json.parent_path() : fs::path(".");
+  const fs::path folder = folder_of(json);
   PackDescription description = read_pack_description(json);
   Pack pack = std::move(description.pack);
   std::vector<Load> loads;
