@@ -28,8 +28,9 @@ struct Verb {
 
 Verb bake_verb();
 Verb inspect_verb();
-Verb compare_verb();
+Verb validate_verb();
 Verb render_verb();
+Verb compare_verb();
 
 /// All verbs, in the order of the help listing.
 std::span<const Verb> verb_table();

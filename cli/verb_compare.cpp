@@ -57,7 +57,9 @@ int run_compare(const CompareArguments& arguments, Console& console) {
   comparison.b = arguments.b;
   console.print(arguments.format == "json" ? comparison_json(comparison, arguments.limits)
                                            : comparison_text(comparison, arguments.limits));
-  return within(comparison, arguments.limits) ? 0 : exit_code(ErrorKind::check_failed);
+  if (!within(comparison, arguments.limits))
+    throw Error(ErrorKind::check_failed, "", fmt::format("{} and {} differ", arguments.a, arguments.b));
+  return 0;
 }
 
 Action declare_compare(CLI::App& app) {

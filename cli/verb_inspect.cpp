@@ -2,6 +2,7 @@
 
 #include "tilepack/error/nearest_name.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/verify/pack_picture.h"
 #include "tilepack/verify/pack_summary.h"
@@ -13,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tilepack::cli {
 namespace {
@@ -63,23 +65,12 @@ void write_drawing(const std::string& file, const Drawing& drawing) {
     throw Error(ErrorKind::usage, file, "pictures are written as .png or .svg");
 }
 
-std::map<std::string, std::uint64_t> bytes_of_files(const PackDescription& description,
-                                                    const std::string& pack) {
-  const fs::path json = pack_json_of(pack);
-  std::map<std::string, std::uint64_t> bytes;
-  std::vector<std::string> files = description.all_files();
-  files.push_back(json.filename().string());
-  for (const std::string& file : files) {
-    std::error_code missing;
-    const auto size = fs::file_size(json.parent_path() / file, missing);
-    if (!missing) bytes[file] = size;
-  }
-  return bytes;
-}
-
 int run_inspect(const InspectArguments& arguments, Console& console) {
   PackSummary summary{arguments.pack, read_pack_description(arguments.pack), {}, {}};
-  summary.file_bytes = bytes_of_files(summary.description, arguments.pack);
+  const fs::path json = pack_json_of(arguments.pack);
+  std::vector<std::string> files = summary.description.all_files();
+  files.push_back(json.filename().string());
+  summary.file_bytes = bytes_of_files(folder_of(json), files);
   const Pack pack = read_pack(arguments.pack);
   PackPictureOptions options;
   options.map = map_named(pack, arguments.map);

@@ -8,8 +8,9 @@ std::span<const Verb> verb_table() {
   static const std::array table{
       bake_verb(),
       inspect_verb(),
-      compare_verb(),
+      validate_verb(),
       render_verb(),
+      compare_verb(),
   };
   return table;
 }

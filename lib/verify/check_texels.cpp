@@ -29,22 +29,37 @@ std::string place(const PackedMap& map, int level) {
   return fmt::format("map {}, level {}", map.name, level);
 }
 
-bool right_size(const Pack& pack, const Image& image, Size tile) {
-  return !image.empty() && image.width() == static_cast<std::int64_t>(pack.layout.columns) * tile.width &&
-         image.height() == static_cast<std::int64_t>(pack.layout.rows) * tile.height;
+bool right_size(const Pack& pack, const Image& image, int level) {
+  return !image.empty() && image.size() == texture_size(pack.layout, pack.tile_size, level);
+}
+
+bool whole(double v) {
+  return v == std::floor(v);
+}
+
+// Turned tiles have no rows of texels along their edges that could be compared.
+std::optional<Rect> upright_rect(const Pack& pack, int tile, int level) {
+  const Placement at = placement(pack.layout, tile, pack.tile_size, level);
+  if (at.east.y != 0 || at.south.x != 0 || !whole(at.origin.x) || !whole(at.origin.y)) return std::nullopt;
+  return Rect{static_cast<int>(at.origin.x), static_cast<int>(at.origin.y), static_cast<int>(at.east.x),
+              static_cast<int>(at.south.y)};
+}
+
+bool inside(const Image& image, const Rect& rect) {
+  return rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+         rect.x <= image.width() - rect.width && rect.y <= image.height() - rect.height;
 }
 
 LevelView view_of(const Pack& pack, const PackedMap& map, int level) {
   const Image& image = map.levels[static_cast<std::size_t>(level)];
   LevelView view{&pack, &map, level, &image, level_size(pack.tile_size, level), {}};
   view.rects.resize(static_cast<std::size_t>(tile_count(pack.tiles)));
-  if (!right_size(pack, image, view.tile)) return view;
-  for (const Cell& cell : pack.layout.cells) {
-    const bool inside = cell.column >= 0 && cell.column < pack.layout.columns && cell.row >= 0 &&
-                        cell.row < pack.layout.rows && cell.tile >= 0 && cell.tile < tile_count(pack.tiles);
-    if (inside)
-      view.rects[cell.tile] =
-          Rect{cell.column * view.tile.width, cell.row * view.tile.height, view.tile.width, view.tile.height};
+  if (!right_size(pack, image, level) || pack.layout.kind == LayoutKind::rotated) return view;
+  for (std::size_t i = 0; i < std::min(pack.layout.cells.size(), view.rects.size()); ++i) {
+    const int tile = pack.layout.cells[i].tile;
+    if (tile != static_cast<int>(i)) continue; // told by check_layout
+    const auto rect = upright_rect(pack, tile, level);
+    if (rect && inside(image, *rect)) view.rects[i] = rect;
   }
   return view;
 }
@@ -173,9 +188,12 @@ void check_guard(const LevelView& view, std::vector<Issue>& issues) {
           [&](int row) { return row == 0 && view.level == 0 ? Rule::edge_texels : Rule::guard_texels; },
           issues);
   } else if (view.level == 0) {
+    // Sanitizing makes the coarser levels what level 0 is taken to be: legal Wang tiles.
+    const bool promised = pack.mip_mode != MipMode::none && pack.mip_mode != MipMode::box;
+    const Rule rule = promised ? Rule::edge_texels : Rule::edge_texels_unpromised;
     for (const Side side : all_sides)
       check_strip(
-          view, {side, 1, 1}, [](int) { return Rule::edge_texels_unpromised; }, issues);
+          view, {side, 1, 1}, [rule](int) { return rule; }, issues);
   }
 }
 
@@ -242,8 +260,9 @@ std::vector<Issue> check_level(const LevelView& view) {
 
 std::vector<Issue> check_levels(const Pack& pack) {
   std::vector<Issue> issues;
-  const int possible = level_count(pack.tile_size);
-  const int wanted = pack.mip_mode == MipMode::none ? 1 : possible;
+  const int wanted = pack.mip_mode == MipMode::none
+                         ? 1
+                         : levels_held(pack.layout, pack.tile_size, level_count(pack.tile_size));
   if (pack.tile_levels != wanted)
     issues.push_back({Rule::levels_missing, "mips.tile_levels", std::to_string(pack.tile_levels),
                       fmt::format("{} for tiles of {} x {} and mips {}", wanted, pack.tile_size.width,
@@ -256,12 +275,11 @@ std::vector<Issue> check_levels(const Pack& pack) {
                         fmt::format("{} levels, as mips.tile_levels says", pack.tile_levels)});
     for (int level = 0; level < levels; ++level) {
       const Image& image = map.levels[static_cast<std::size_t>(level)];
-      const Size tile = level_size(pack.tile_size, std::min(level, 30));
-      if (!image.empty() && !right_size(pack, image, tile))
-        issues.push_back({Rule::level_size, place(map, level),
-                          fmt::format("{} x {} texels", image.width(), image.height()),
-                          fmt::format("{} x {} tiles of {} x {}", pack.layout.columns, pack.layout.rows,
-                                      tile.width, tile.height)});
+      if (image.empty() || right_size(pack, image, std::min(level, 30))) continue;
+      const Size wanted_size = texture_size(pack.layout, pack.tile_size, std::min(level, 30));
+      issues.push_back({Rule::level_size, place(map, level),
+                        fmt::format("{} x {} texels", image.width(), image.height()),
+                        fmt::format("{} x {}", wanted_size.width, wanted_size.height)});
     }
   }
   return issues;

@@ -25,7 +25,9 @@ std::vector<Issue> check_levels(const Pack& pack);
 
 /// Values finite and storable; the texels that tiles must share, shared:
 ///   level 0        the guard band of each edge, `guard` texels deep (outermost row: TP403; deeper: TP404);
-///                  with no guard promised a differing outermost row is a warning (TP407)
+///   without a
+///                  guard the outermost row but for its corners: an error (TP403) if coarser levels are
+///                  sanitized, since that takes level 0 for legal, else a warning (TP407)
 ///   coarser        floor(guard / 2^level) texels of it, since a box of equal texels is equal
 ///   past the guard what the mip mode promises (mip/shared_border.h): TP405, TP406
 /// With colored edges the squares where two bands cross are free; with colored corners they are shared too.

@@ -139,11 +139,16 @@ TEST_CASE("a texel is named by its place in the image, so that it is found in an
   CHECK(issues[0].found.find(place) != std::string::npos);
 }
 
-TEST_CASE("without a promised guard, differing borders are a warning") {
-  Pack pack = good_pack({.guard = 0});
+TEST_CASE("without a guard or sanitized levels, differing borders are a warning") {
+  Pack pack = good_pack({.guard = 0, .mips = MipMode::box});
   const auto issues = check_structure(pack);
   CHECK(has(issues, Rule::edge_texels_unpromised));
   CHECK(count(issues).errors == 0);
+}
+
+TEST_CASE("sanitized levels take it that level 0 agrees along edges, guard or not") {
+  const Pack pack = good_pack({.guard = 0});
+  CHECK(has(check_structure(pack), Rule::edge_texels));
 }
 
 TEST_CASE("mips that promise nothing about borders are not held to it") {
