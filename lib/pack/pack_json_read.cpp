@@ -306,6 +306,33 @@ void read_mips(const JsonCursor& value, Pack& pack) {
           .small_integer(1, box ? levels_held(pack.layout, pack.tile_size, level_count(pack.tile_size)) : 1);
 }
 
+// The corner pack is looked up with the number of a map of the pack, so both hold the same maps.
+CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vector<LevelFiles>& files,
+                            std::set<std::string>& used) {
+  value.only({"columns", "rows", "maps"});
+  if (coloring_of(pack.tiles) == Coloring::corner)
+    value.fail("is there, but corner-colored tiles need none; remove the field");
+  CornerPack packed;
+  const int columns = pack.colors.horizontal * pack.colors.horizontal;
+  const int rows = pack.colors.vertical * pack.colors.vertical;
+  packed.columns = value.member("columns").small_integer(columns, columns);
+  packed.rows = value.member("rows").small_integer(rows, rows);
+  Layout grid;
+  grid.columns = columns;
+  grid.rows = rows;
+  const JsonCursor maps = value.member("maps");
+  maps.array(pack.maps.size(), pack.maps.size());
+  packed.maps = read_maps(maps, {grid, pack.tile_size, pack.tile_levels}, files, used);
+  for (std::size_t m = 0; m < packed.maps.size(); ++m) {
+    const PackedMap& here = packed.maps[m];
+    const PackedMap& there = pack.maps[m];
+    if (here.name != there.name || here.role != there.role || here.encoding != there.encoding ||
+        here.depth != there.depth || here.channels != there.channels)
+      maps.item(m).fail(fmt::format("differs from maps[{}] in name, role, encoding, depth or channels", m));
+  }
+  return packed;
+}
+
 } // namespace
 
 PackDescription parsed_pack_json(std::string_view text, const std::string& file) {
@@ -328,18 +355,8 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
       read_maps(root.member("maps"), {pack.layout, pack.tile_size, pack.tile_levels}, result.map_files, used);
   pack.mapping = read_mapping(root.member("mapping"), result.index_file, used);
   if (pack.mapping.kind != MappingKind::index) check_complete(root.member("tiles"), pack.tiles, pack.colors);
-  if (const auto corner = root.find("corner_pack")) {
-    corner->only({"columns", "rows", "maps"});
-    CornerPack packed;
-    packed.columns = corner->member("columns").small_integer(1, most_colors * most_colors);
-    packed.rows = corner->member("rows").small_integer(1, most_colors * most_colors);
-    Layout grid;
-    grid.columns = packed.columns;
-    grid.rows = packed.rows;
-    packed.maps = read_maps(corner->member("maps"), {grid, pack.tile_size, pack.tile_levels},
-                            result.corner_files, used);
-    pack.corner_pack = std::move(packed);
-  }
+  if (const auto corner = root.find("corner_pack"))
+    pack.corner_pack = read_corner_pack(*corner, pack, result.corner_files, used);
   return result;
 }
 

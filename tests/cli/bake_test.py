@@ -36,7 +36,8 @@ class Bake(CommandCase):
         jsonschema.Draft202012Validator.check_schema(schema)
         validator = jsonschema.Draft202012Validator(schema)
         kinds = [(), ("--mapping", "permutation"), ("--mapping", "index"), ("--colors", "3x1", "--mips", "none"),
-                 ("--mips", "corners"), ("--tile-size", "12x20"), ("--format", "exr")]
+                 ("--mips", "corners"), ("--tile-size", "12x20"), ("--format", "exr"),
+                 ("--layout", "rotated"), ("--layout", "array", "--border", 2), ("--corner-pack",)]
         for arguments in kinds:
             with self.subTest(arguments):
                 self.bake(*arguments)
