@@ -17,7 +17,8 @@ class Validate(CommandCase):
         with open(os.path.join(SOURCE, "lib/verify/report.schema.json"), encoding="utf-8") as stream:
             self.schema = json.load(stream)
         self.noise_png("sample.png")
-        self.run_tilepack("bake", "sample.png", "-o", "good", "--tile-size", 16, "--virtual-size", 16, "--effort", 0)
+        self.run_tilepack("bake", "sample.png", "-o", "good", "--tile-size", 16, "--virtual-size", 16, "--effort", 0,
+                          "--mapping", "permutation")
         self.restore()
 
     def restore(self):
