@@ -71,7 +71,8 @@ HWY_INLINE void settle(VI& tile, VF& fraction, std::int64_t side) {
     cell = hn::And(cell, hn::Set(i, static_cast<std::int32_t>(side - 1)));
   } else {
     // The sum may have gone round the 32 bits where the tile is far out.
-    good = hn::And(good, hn::Lt(hn::Abs(tile), hn::Set(i, 1 << 30)));
+    good = hn::And(good, hn::Lt(tile, hn::Set(i, 1 << 30)));
+    good = hn::And(good, hn::Gt(tile, hn::Set(i, -(1 << 30))));
     good = hn::And(good, hn::Gt(cell, hn::Set(i, -1)));
     good = hn::And(good, hn::Lt(cell, hn::Set(i, static_cast<std::int32_t>(side))));
   }
