@@ -75,7 +75,7 @@ class PackFiles(CommandCase):
         good = self.read_json("out/pack.json")
         raw = self.contents("out")["pack.json"]
         source = random.Random(7)
-        for turn in range(60):
+        for turn in range(24):
             if turn % 2:
                 text = json.dumps(mutated(good, source)).encode()
             else:
