@@ -27,10 +27,12 @@ struct Verb {
 };
 
 Verb bake_verb();
+Verb pack_verb();
 Verb inspect_verb();
 Verb validate_verb();
 Verb render_verb();
 Verb compare_verb();
+Verb layouts_verb();
 
 /// All verbs, in the order of the help listing.
 std::span<const Verb> verb_table();

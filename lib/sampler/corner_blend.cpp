@@ -9,7 +9,9 @@
 namespace tilepack {
 namespace {
 
-constexpr double half_diagonal = 0.70710678118654752; // of a texel
+// A bilinear filter that crosses a border within 1.5 texels of a corner reads a corner texel beyond it:
+// points up to sqrt(0.5² + 1.5²) texels from the corner.
+constexpr double corner_reach = 1.5811388300841898;
 
 const EdgeTile& edge_tile(const Pack& pack, std::int64_t x, std::int64_t y) {
   const auto& tiles = std::get<std::vector<EdgeTile>>(pack.tiles);
@@ -20,7 +22,7 @@ const EdgeTile& edge_tile(const Pack& pack, std::int64_t x, std::int64_t y) {
 
 double corner_weight(double fraction_x, double fraction_y, Size tile, double width) {
   const double outer = std::min(width, 0.5 * std::min(tile.width, tile.height));
-  const double inner = std::min(half_diagonal, 0.5 * outer);
+  const double inner = std::min(corner_reach, 0.5 * outer);
   const double x = (fraction_x < 0.5 ? fraction_x : 1.0 - fraction_x) * tile.width;
   const double y = (fraction_y < 0.5 ? fraction_y : 1.0 - fraction_y) * tile.height;
   const double distance = std::sqrt(x * x + y * y);

@@ -1,0 +1,157 @@
+#include "verb.h"
+
+#include "tilepack/layout/layout_planner.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tilepack::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct LayoutsArguments {
+  std::optional<int> tiles;
+  int up_to = 200;
+  int tile_side = 128;
+  int gutter = 0;
+  bool power_of_two = false;
+  std::string format = "text";
+};
+
+PlanRequest request_for(int tiles, const LayoutsArguments& arguments) {
+  PlanRequest request;
+  request.tiles = tiles;
+  request.tile_side = arguments.tile_side;
+  request.gutter = arguments.gutter;
+  request.power_of_two = arguments.power_of_two;
+  return request;
+}
+
+double share(std::int64_t wasted, std::int64_t texels) {
+  return 100.0 * static_cast<double>(wasted) / static_cast<double>(texels);
+}
+
+std::string nesting(const RotatedScheme& scheme) {
+  std::string text;
+  for (const int count : nested_counts(scheme)) text += fmt::format("{}{}", text.empty() ? "" : " · ", count);
+  return text;
+}
+
+// What padding to a power of two would leave empty, in percent of the texture.
+double padding(int tiles, int tile_side) {
+  const std::int64_t padded = padded_texels(tiles, tile_side);
+  return share(padded - std::int64_t{tiles} * tile_side * tile_side, padded);
+}
+
+Json plan_json(const LayoutPlan& plan) {
+  const std::int64_t texels = std::int64_t{plan.size.width} * plan.size.height;
+  return {{"scheme", formula(plan.scheme)},
+          {"n", plan.scheme.n},
+          {"k", plan.scheme.k},
+          {"squares", plan.scheme.squares},
+          {"nested", nested_counts(plan.scheme)},
+          {"angle", angle_in_degrees(plan.scheme)},
+          {"size", {plan.size.width, plan.size.height}},
+          {"copied", plan.copied},
+          {"wasted_texels", plan.wasted},
+          {"wasted_percent", share(plan.wasted, texels)}};
+}
+
+Json row_json(int tiles, const LayoutsArguments& arguments) {
+  Json plans = Json::array();
+  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments))) plans.push_back(plan_json(plan));
+  return {{"tiles", tiles},
+          {"plans", std::move(plans)},
+          {"padded_texels", padded_texels(tiles, arguments.tile_side)},
+          {"padded_percent", padding(tiles, arguments.tile_side)}};
+}
+
+std::string plan_text(const LayoutPlan& plan) {
+  const std::int64_t texels = std::int64_t{plan.size.width} * plan.size.height;
+  return fmt::format("{:<18} {:>6.2f}°  {:>5} x {:<5}  {:>6.2f} %  {}", formula(plan.scheme),
+                     angle_in_degrees(plan.scheme), plan.size.width, plan.size.height,
+                     share(plan.wasted, texels), plan.copied ? "copied" : "turned");
+}
+
+std::string table_text(const std::vector<int>& counts, const LayoutsArguments& arguments) {
+  std::string text =
+      fmt::format("Tiles of {0} x {0} texels, gutter {1}. Waste in percent of the texture.\n\n"
+                  "tiles  scheme              angle    texture          waste  stored   padded  nested\n",
+                  arguments.tile_side, arguments.gutter);
+  for (const int tiles : counts) {
+    const LayoutPlan best = layout_plans(request_for(tiles, arguments)).front();
+    text += fmt::format("{:>5}  {}  {:>6.2f} %  {}\n", tiles, plan_text(best),
+                        padding(tiles, arguments.tile_side), nesting(best.scheme));
+  }
+  return text;
+}
+
+std::string advice_text(int tiles, const LayoutsArguments& arguments) {
+  std::string text =
+      fmt::format("{0} tiles of {1} x {1} texels, best first:\n\n", tiles, arguments.tile_side);
+  int place = 1;
+  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments)))
+    text += fmt::format("  {}  {}  --layout rotated --scheme {},{}{}\n", place++, plan_text(plan),
+                        plan.scheme.n, plan.scheme.k, plan.scheme.squares == 2 ? ",2" : "");
+  text += fmt::format("\nPadded to powers of two they would leave {:.2f} % of the texture empty.\n"
+                      "The nearest other counts without waste are {} and {}.\n",
+                      padding(tiles, arguments.tile_side), tiles > 1 ? reachable_counts(tiles - 1).below : 0,
+                      reachable_counts(tiles + 1).above);
+  return text;
+}
+
+int run_layouts(const LayoutsArguments& arguments, Console& console) {
+  const bool json = arguments.format == "json";
+  if (arguments.tiles) {
+    console.print(json ? row_json(*arguments.tiles, arguments).dump(2) + "\n"
+                       : advice_text(*arguments.tiles, arguments));
+    return 0;
+  }
+  std::vector<int> counts;
+  for (int tiles = 1; tiles <= arguments.up_to; ++tiles)
+    if (!rotated_schemes(tiles).empty()) counts.push_back(tiles);
+  if (!json) {
+    console.print(table_text(counts, arguments));
+    return 0;
+  }
+  Json rows = Json::array();
+  for (const int tiles : counts) rows.push_back(row_json(tiles, arguments));
+  console.print(Json{{"tile_size", arguments.tile_side}, {"layouts", std::move(rows)}}.dump(2) + "\n");
+  return 0;
+}
+
+Action declare_layouts(CLI::App& app) {
+  auto arguments = std::make_shared<LayoutsArguments>();
+  app.add_option("--tiles", arguments->tiles, "advice for this many tiles, 1 to 65535")
+      ->check(CLI::Range(1, max_rotated_tiles - 1))
+      ->type_name("N");
+  app.add_option("--up-to", arguments->up_to, "largest tile count of the table, 1 to 4096")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  app.add_option("--tile-size", arguments->tile_side, "side of a tile in texels, 1 to 4096")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  app.add_option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side")
+      ->type_name("N");
+  app.add_flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
+  app.add_option("--format", arguments->format, "of the table")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->type_name("text|json");
+  return [arguments](Console& console) { return run_layouts(*arguments, console); };
+}
+
+} // namespace
+
+Verb layouts_verb() {
+  return {"layouts", "list which tile counts pack without waste, and how",
+          "  tilepack layouts --up-to 50 --tile-size 64\n"
+          "  tilepack layouts --tiles 18\n",
+          declare_layouts};
+}
+
+} // namespace tilepack::cli

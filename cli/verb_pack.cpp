@@ -1,0 +1,161 @@
+#include "bake_report.h"
+#include "jobs.h"
+#include "verb.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/pack/bake_fields.h"
+#include "tilepack/pack/drawn_set.h"
+#include "tilepack/pack/pack_write.h"
+#include "tilepack/tileset/border_agreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace tilepack::cli {
+namespace {
+
+// The bake options that are about packing.
+constexpr std::array packing_fields{"layout",       "scheme",      "gutter", "power-of-two", "turn-filter",
+                                    "border",       "corner-pack", "mips",   "jump-weight",  "mapping",
+                                    "virtual-size", "format",      "depth",  "seed"};
+
+struct PackArguments {
+  std::vector<std::string> tiles;
+  std::string folder;
+  std::string colors;
+  std::string name = "color";
+  std::string role = "color";
+  std::string report_format = "text";
+  double tolerance = 0;
+  int jobs = 0;
+  std::map<std::string, std::string> fields;
+};
+
+bool is_packing_field(const std::string& name) {
+  return std::find(packing_fields.begin(), packing_fields.end(), name) != packing_fields.end();
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw Error(ErrorKind::cannot_read, file, "the list of colors can't be read");
+  return text.str();
+}
+
+Role role_of(const std::string& name) {
+  for (const Role role : {Role::color, Role::normal, Role::roughness, Role::height})
+    if (name == name_of(role)) return role;
+  return Role::data;
+}
+
+// Unless told otherwise, the layout and mapping that go with the colors.
+BakeOptions options_from(const PackArguments& arguments, const TileColors& tiles) {
+  std::vector<BakeSetting> settings;
+  if (coloring_of(tiles) == Coloring::corner)
+    settings.push_back({"coloring", "corner", "", ErrorKind::internal});
+  for (const auto& [field, value] : arguments.fields)
+    settings.push_back({field, value, "--" + field, ErrorKind::usage});
+  return bake_options(settings);
+}
+
+void check_agreement(const TileSet& set, double tolerance, Console& console) {
+  const std::vector<BorderDifference> differences = border_differences(set, tolerance);
+  if (differences.empty()) return;
+  constexpr std::size_t most_shown = 12;
+  for (std::size_t i = 0; i < std::min(most_shown, differences.size()); ++i) {
+    const BorderDifference& d = differences[i];
+    console.print(
+        fmt::format("tile {}, {} border ({}): {} texels differ from tile {}, most at ({}, {}) channel {}: "
+                    "by {:.4f}\n",
+                    d.tile, d.side, d.color, d.texels, d.reference, d.x, d.y, d.channel, d.difference));
+  }
+  throw Error(
+      ErrorKind::check_failed, "",
+      fmt::format("the drawings disagree along {} borders, by up to {:.4f} of full scale; redraw them, or "
+                  "allow as much with --tolerance",
+                  differences.size(), differences.front().difference));
+}
+
+int run_pack(const PackArguments& arguments, Console& console) {
+  const JobLimit limit(arguments.jobs);
+  check_pack_folder(arguments.folder);
+  const TileColors tiles = parsed_color_list(text_of(arguments.colors), arguments.colors);
+  const BakeOptions options = options_from(arguments, tiles);
+  std::vector<Drawing> drawings;
+  const Role role = role_of(arguments.role);
+  for (const std::string& file : arguments.tiles)
+    drawings.push_back(
+        {file, read_image(file, role == Role::color ? std::nullopt : std::optional(Encoding::linear))});
+  TileSet set = drawn_set(drawings, tiles, arguments.name, role);
+  check_packing(options, set.tiles, set.tile_size);
+  check_agreement(set, arguments.tolerance, console);
+
+  const Progress progress = console.progress();
+  Pack pack = packed(std::move(set), options, options.synth.seed, progress);
+  pack.generator.version = TILEPACK_VERSION;
+  pack.generator.seed = options.synth.seed;
+  for (auto& option : recorded_options(options))
+    if (is_packing_field(option.first)) pack.generator.options.push_back(std::move(option));
+  write_pack(pack, arguments.folder, progress);
+  const PackDescription made = described(pack);
+  console.print(arguments.report_format == "json" ? bake_report_json(made, arguments.folder)
+                                                  : bake_report_text(made, arguments.folder));
+  return 0;
+}
+
+Action declare_pack(CLI::App& app) {
+  auto arguments = std::make_shared<PackArguments>();
+  app.add_option("TILE", arguments->tiles, "images of the tiles, all of one size")->type_name("")->required();
+  app.add_option("-o,--output", arguments->folder, "folder of the pack")->type_name("DIR")->required();
+  app.add_option(
+         "--colors", arguments->colors,
+         "JSON list of the tiles' colors, one entry a TILE: {\"north\": 0, \"east\": 0, \"south\": 0, "
+         "\"west\": 0} or {\"nw\": 0, \"ne\": 0, \"sw\": 0, \"se\": 0}")
+      ->type_name("FILE")
+      ->required();
+  app.add_option("--name", arguments->name, "of the map in the pack")->type_name("NAME");
+  app.add_option("--role", arguments->role, "what the values mean")
+      ->check(CLI::IsMember({"color", "normal", "roughness", "height", "data"}))
+      ->type_name("ROLE");
+  app.add_option("--tolerance", arguments->tolerance,
+                 "by how much borders of one color may differ, in parts of full scale")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("X");
+  for (const BakeField& field : bake_fields()) {
+    if (!is_packing_field(field.name)) continue;
+    const auto store = [arguments, name = field.name](const std::string& value) {
+      arguments->fields[name] = value;
+    };
+    if (field.type == BakeFieldType::flag)
+      app.add_flag_function(
+          fmt::format("--{0},!--no-{0}", field.name),
+          [store](std::int64_t count) { store(count > 0 ? "true" : "false"); }, field.help);
+    else
+      app.add_option_function<std::string>("--" + field.name, store, field.help)->type_name(field.value);
+  }
+  app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->type_name("text|json");
+  add_jobs_option(app, arguments->jobs);
+  return [arguments](Console& console) { return run_pack(*arguments, console); };
+}
+
+} // namespace
+
+Verb pack_verb() {
+  return {"pack", "make a tile pack from tiles drawn by hand",
+          "  tilepack pack tile_*.png -o lines.pack --colors colors.json\n"
+          "  tilepack pack *.png -o eight.pack --colors eight.json --layout rotated --mapping index\n",
+          declare_pack};
+}
+
+} // namespace tilepack::cli
