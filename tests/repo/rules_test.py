@@ -1,0 +1,150 @@
+"""The rules of this repository that a program can check."""
+
+import os
+import re
+import subprocess
+import unittest
+
+SOURCE = os.environ["TILEPACK_SOURCE"]
+TILEPACK = os.environ["TILEPACK"]
+
+# From low to high: a folder of lib/ includes only itself and those before it.
+FOLDERS = "error image tileset synth layout mip mapping pattern pack sampler scanline verify".split()
+CODE = (".h", ".cpp", ".cpp.in", ".py", ".sh")
+
+
+def files(*endings, below=""):
+    """(path from the source, text) of every file of ours whose name ends so."""
+    found = []
+    for folder, folders, names in os.walk(os.path.join(SOURCE, below)):
+        folders[:] = sorted(f for f in folders if f != "build" and (not f.startswith(".") or f == ".ci"))
+        for name in sorted(names):
+            if name.endswith(endings):
+                path = os.path.join(folder, name)
+                with open(path, encoding="utf-8") as stream:
+                    found.append((os.path.relpath(path, SOURCE), stream.read()))
+    return found
+
+
+class Rules(unittest.TestCase):
+    def none_of(self, faults, rule):
+        self.assertEqual(faults, [], rule)
+
+    def test_folders_include_only_lower_ones(self):
+        faults = []
+        self.assertGreater(len(files(".h", below="lib")), 30)
+        for path, text in files(".h", ".cpp", ".cpp.in", below="lib"):
+            folder = path.split(os.sep)[1]
+            self.assertIn(folder, FOLDERS, path)
+            for included in re.findall(r'#\s*include\s+"([^"]*)"', text):
+                parts = included.split("/")
+                if parts[0] != "tilepack" or len(parts) != 3:
+                    faults.append(f'{path}: "{included}" is not "tilepack/FOLDER/FILE.h"')
+                elif FOLDERS.index(parts[1]) > FOLDERS.index(folder):
+                    faults.append(f"{path}: includes {included}, which is above it")
+        self.none_of(faults, "the order of folders is " + " ".join(FOLDERS))
+
+    def test_the_library_knows_nothing_of_the_command_line(self):
+        faults = [path for path, text in files(".h", ".cpp", below="lib")
+                  if re.search(r"#\s*include\s+[<\"](CLI/|.*cli/|iostream>)", text)
+                  or re.search(r"\bstd::(cout|cerr|clog)\b|\b(printf|puts)\(|\bexit\(", text)]
+        self.none_of(faults, "lib/ prints nothing and parses no command line")
+
+    def test_json_and_image_libraries_stay_out_of_headers(self):
+        # ..-inl.h files are parts of a .cpp, compiled once for each instruction set.
+        faults = [path for path, text in files(".h", below="lib") if not path.endswith("-inl.h")
+                  and re.search(r"#\s*include\s+<(nlohmann|OpenImageIO|opencv2|fmt|hwy|xxhash)", text)]
+        self.none_of(faults, "whoever uses the library needs none of the libraries it is made with")
+
+    def test_cited_works_are_listed(self):
+        with open(os.path.join(SOURCE, "lib/REFERENCES.md"), encoding="utf-8") as stream:
+            listed = set(re.findall(r"^\| ([A-Za-z]+[0-9]*) \|", stream.read(), re.MULTILINE))
+        self.assertIn("Wei04", listed)
+        faults, used = [], set()
+        for path, text in files(".h", ".cpp", ".md", below="lib"):
+            comments = text if path.endswith(".md") else "\n".join(re.findall(r"//.*", text))
+            for key in re.findall(r"\[([A-Z][A-Za-z]+[0-9]*)(?:,[^\]]*| §[^\]]*)?\]", comments):
+                used.add(key)
+                if key not in listed and re.search(r"[0-9]$", key):
+                    faults.append(f"{path}: [{key}]")
+        self.none_of(faults, "every key stands in lib/REFERENCES.md")
+        self.assertLessEqual({"Wei04", "Cohen03"}, used)
+
+    def test_files_are_short(self):
+        faults = [f"{path}: {count} lines" for path, text in files(*CODE, "CMakeLists.txt", ".json", ".md")
+                  if (count := text.count("\n")) > 500]
+        self.none_of(faults, "no file has more than 500 lines")
+
+    def test_names_say_what_is_inside(self):
+        faults = []
+        for path, _ in files(*CODE):
+            for part in path.split(os.sep):
+                if re.match(r"(utils?|common|misc|helpers?|stuff|manager)\b", part.rsplit(".", 1)[0].lower()):
+                    faults.append(path)
+                elif not re.fullmatch(r"[a-z0-9_.-]+|CMakeLists\.txt|README\.md", part) and part not in ("main",):
+                    faults.append(path)
+        self.none_of(faults, "no catch-all names; lower case with underscores")
+
+    def test_nothing_is_left_to_do(self):
+        words = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
+        faults = [f"{path}: {m.group()}" for path, text in files(*CODE, "CMakeLists.txt") for m in words.finditer(text)]
+        self.none_of(faults, "what is unfinished does not land")
+
+    def test_headers_are_read_once_and_in_the_namespace(self):
+        faults = [path for path, text in files(".h", below="lib") if not path.endswith("-inl.h")
+                  and (text.count("#pragma once") != 1 or "namespace tilepack" not in text)]
+        self.none_of(faults, "#pragma once, namespace tilepack")
+
+    def test_nothing_reads_the_clock_or_the_libraries_random_numbers(self):
+        pattern = re.compile(r"std::(mt19937|random_device|rand\b)|\brand\(\)|system_clock|\btime\(nullptr\)|unordered_")
+        faults = [f"{path}: {m.group()}" for path, text in files(".h", ".cpp", below="lib")
+                  for m in pattern.finditer("\n".join(line.split("//")[0] for line in text.splitlines()))]
+        self.none_of(faults, "the same input makes the same bytes")
+
+
+class Readme(unittest.TestCase):
+    def setUp(self):
+        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as stream:
+            self.readme = stream.read()
+        listing = self.tilepack("help")
+        self.verbs = re.findall(r"^  ([a-z]+) ", listing.split("Verbs:")[1].split("\n\n")[0], re.MULTILINE)
+        self.assertIn("bake", self.verbs)
+
+    def tilepack(self, *arguments):
+        return subprocess.run([TILEPACK, *arguments], capture_output=True, text=True, check=True).stdout
+
+    def examples(self):
+        """Command lines of the README's blocks of code, continued lines joined."""
+        blocks = re.findall(r"^```(?:sh|bash|console)?\n(.*?)^```", self.readme, re.MULTILINE | re.DOTALL)
+        lines = "\n".join(blocks).replace("\\\n", " ").splitlines()
+        return [line.split("#")[0].strip() for line in lines if re.match(r"\s*(\$ )?tilepack ", line)]
+
+    def test_every_verb_has_an_example(self):
+        shown = {line.replace("$ ", "").split()[1] for line in self.examples()}
+        missing = [v for v in self.verbs if v != "help" and v not in shown]
+        self.assertEqual(missing, [], "the README shows every verb")
+
+    def test_examples_use_verbs_and_options_that_exist(self):
+        for line in self.examples():
+            words = line.replace("$ ", "").split()
+            if words[1].startswith("-"):
+                continue
+            with self.subTest(line):
+                self.assertIn(words[1], self.verbs)
+                manual = self.tilepack("help", words[1]) if words[1] != "help" else "--help"
+                for option in words[2:]:
+                    if option.startswith("--"):
+                        self.assertRegex(manual, re.escape(option.split("=")[0]) + r"\b")
+
+    def test_every_verb_explains_itself_with_an_example(self):
+        for verb in self.verbs:
+            if verb == "help":
+                continue
+            with self.subTest(verb):
+                manual = self.tilepack(verb, "--help")
+                self.assertEqual(manual, self.tilepack("help", verb))
+                self.assertIn(f"tilepack {verb}", manual.split("Example:")[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
