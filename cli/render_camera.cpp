@@ -100,10 +100,9 @@ void add_camera_options(CLI::App& app, CameraArguments& a) {
                  "tiles a world unit of the ground or a unit of texture coordinate (default 1)")
       ->type_name("N")
       ->group(group);
-  app.add_option(
-         "--span", a.span,
-         "how scanlines are stepped: exact (default), euler1, euler2, newton, newton-general, affine, "
-         "estimate")
+  app.add_option("--span", a.span,
+                 "how scanlines are stepped: exact (default), euler1, euler2, newton, newton-direct, "
+                 "newton-general, affine, estimate")
       ->type_name("METHOD")
       ->group(group);
   app.add_option("--reseed", a.reseed, "an exact value every N pixels (default: only at the near end)")

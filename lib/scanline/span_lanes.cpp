@@ -87,6 +87,8 @@ struct Lanes {
     } else if constexpr (method == SpanMethod::newton) {
       y = one;
       q = hn::Neg(one);
+    } else if constexpr (method == SpanMethod::newton_direct) {
+      y = one;
     } else if constexpr (method == SpanMethod::affine) {
       const V chord = hn::Min(hn::Max(hn::Sub(last, n0), one), hn::Set(d, length));
       y = hn::Div(one, held_denominator(d, k, chord));
@@ -120,7 +122,8 @@ struct Lanes {
     }
   }
 
-  HWY_INLINE void advance(D d) {
+  // To the pixel `next` steps after the seed.
+  HWY_INLINE void advance(D d, V next) {
     if constexpr (method == SpanMethod::euler1) {
       y = times_plus<fused>(hn::Mul(k, y), y, y);
     } else if constexpr (method == SpanMethod::euler2) {
@@ -129,6 +132,9 @@ struct Lanes {
     } else if constexpr (method == SpanMethod::newton) {
       q = hn::Add(q, k);
       y = hn::Mul(times_plus<fused>(q, y, hn::Set(d, Real(2))), y);
+    } else if constexpr (method == SpanMethod::newton_direct) {
+      const V direct = times_plus<fused>(k, next, hn::Set(d, Real(-1)));
+      y = hn::Mul(times_plus<fused>(direct, y, hn::Set(d, Real(2))), y);
     } else if constexpr (method == SpanMethod::newton_general) {
       q0u = hn::Add(q0u, a_u);
       q0v = hn::Add(q0v, a_v);
@@ -161,9 +167,9 @@ void step_pieces(D d, const SpanLanes<hn::TFromD<D>>& lanes, const LaneRun& run,
         Real* const pixel_v = v + SpanBatch<Real>::index(at, n);
         left.put(d, j, pixel_u, pixel_v);
         right.put(d, j, pixel_u + width, pixel_v + width);
-        left.advance(d);
-        right.advance(d);
         j = hn::Add(j, hn::Set(d, Real(1)));
+        left.advance(d, j);
+        right.advance(d, j);
       }
     }
   }
@@ -206,6 +212,8 @@ void step_method(D d, const SpanLanes<hn::TFromD<D>>& lanes, const LaneRun& run,
     return step_pieces<SpanMethod::euler2, fused>(d, lanes, run, u, v);
   case SpanMethod::newton:
     return step_pieces<SpanMethod::newton, fused>(d, lanes, run, u, v);
+  case SpanMethod::newton_direct:
+    return step_pieces<SpanMethod::newton_direct, fused>(d, lanes, run, u, v);
   case SpanMethod::newton_general:
     return step_pieces<SpanMethod::newton_general, fused>(d, lanes, run, u, v);
   case SpanMethod::affine:

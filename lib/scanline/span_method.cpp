@@ -15,10 +15,15 @@
 namespace tilepack {
 namespace {
 
-constexpr std::array<std::string_view, 7> names = {"exact",          "euler1", "euler2",  "newton",
-                                                   "newton-general", "affine", "estimate"};
+constexpr std::array<std::string_view, 8> names = {"exact",         "euler1",         "euler2", "newton",
+                                                   "newton-direct", "newton-general", "affine", "estimate"};
 
 constexpr double ln2 = 0.69314718055994530942;
+
+// Whether roundings add up from step to step.
+bool sums_up(SpanMethod method) {
+  return method != SpanMethod::exact && method != SpanMethod::estimate && method != SpanMethod::newton_direct;
+}
 
 bool steps_from_seeds(SpanMethod method) {
   return method != SpanMethod::exact && method != SpanMethod::estimate;
@@ -103,6 +108,16 @@ void step_piece(SpanMethod method, const Piece<Real>& piece, Real* u, Real* v, i
     });
     return;
   }
+  case SpanMethod::newton_direct: {
+    Real y = 1;
+    write_piece(piece, u, v, length, [&](Real j) {
+      const Real t = j * y;
+      const Real q = k * (j + 1) - 1;
+      y = (q * y + 2) * y;
+      return t;
+    });
+    return;
+  }
   case SpanMethod::newton_general:
     write_general(piece.u, piece.du, k, u, length);
     write_general(piece.v, piece.dv, k, v, length);
@@ -132,6 +147,10 @@ std::string_view name_of(SpanMethod method) {
   return names[static_cast<std::size_t>(method)];
 }
 
+std::string_view name_of(SpanPrecision precision) {
+  return precision == SpanPrecision::f32 ? "f32" : "f64";
+}
+
 SpanMethod span_method_of(const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<SpanMethod>(found - names.begin());
@@ -155,6 +174,7 @@ double method_bound(SpanMethod method, double distance, int steps) {
   case SpanMethod::euler2:
     return 4 * m / ((2 * distance + 1) * (2 * (distance + m) + 1));
   case SpanMethod::newton:
+  case SpanMethod::newton_direct:
   case SpanMethod::newton_general:
     // The fixed point, with the difference of near-equal numbers turned into a quotient.
     return steps == 0 ? 0 : 2 / (std::sqrt(distance * distance + 4) + distance);
@@ -167,7 +187,7 @@ double method_bound(SpanMethod method, double distance, int steps) {
 }
 
 double rounding_bound(SpanMethod method, int n, int steps, double unit) {
-  const double drift = steps_from_seeds(method) ? (steps + 4.0) * (steps + 1.0) : 0.0;
+  const double drift = sums_up(method) ? (steps + 4.0) * (steps + 1.0) : 0.0;
   return unit * (8.0 * n + 4 + drift);
 }
 
@@ -189,7 +209,9 @@ int reseed_interval(SpanMethod method, const Span& span, double wanted, double u
 int steppable_pixels(const Span& span, const SpanOptions& options, double unit) {
   if (span.bend == 0) return span.count;
   const bool steps = steps_from_seeds(options.method);
-  const int run = !steps ? 1 : options.reseed > 0 ? std::min(options.reseed, span.count) : span.count;
+  const int run = !sums_up(options.method) ? 1
+                  : options.reseed > 0     ? std::min(options.reseed, span.count)
+                                           : span.count;
   const double margin = (steps ? 1.0 : 0.0) + 2 * unit * (run + 4.0) / span.bend;
   const double last = std::floor(horizon_distance(span, 0) - margin);
   if (!(last >= 0)) return 0;

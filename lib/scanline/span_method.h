@@ -14,21 +14,26 @@ namespace tilepack {
 /// s is the distance in pixels from the pixel at hand to the horizon, m the number of steps since the last
 /// exact value ("seed"). The bounds are of the error in pixels of the screen, before rounding.
 enum class SpanMethod {
-  exact,          ///< a division a pixel
-  euler1,         ///< y += bend y²; error 0..ln((s+m+1)/(s+1))  [Cou, Theorem 3.1]
-  euler2,         ///< y += bend y² + bend² y³; error 0..4m/((2s+1)(2s+2m+1)) < 2  [Cou, Theorem 3.2]
-  newton,         ///< y = (q y + 2) y, q += bend; error 0..min(1, 1/s)  [Cou, Theorem 4.1, Listing 1]
+  exact,         ///< a division a pixel
+  euler1,        ///< y += bend y²; error 0..ln((s+m+1)/(s+1))  [Cou, Theorem 3.1]
+  euler2,        ///< y += bend y² + bend² y³; error 0..4m/((2s+1)(2s+2m+1)) < 2  [Cou, Theorem 3.2]
+  newton,        ///< y = (q y + 2) y, q += bend; error 0..min(1, 1/s)  [Cou, Theorem 4.1, Listing 1]
+  newton_direct, ///< as newton, q = bend (n + 1) - 1 computed afresh: a multiplication more, but no sum whose
+                 ///< roundings pile up, so in float the one recurrence that truly corrects itself
   newton_general, ///< each coordinate by its own quadratic, same error  [Cou, Eq. 5.5, Listing 2]
   affine,         ///< straight lines between seeds; error -(sqrt(s+m) - sqrt(s))²..0
   estimate,       ///< a division's stand-in: a start value from the bits of the divisor, Newton steps to full
                   ///< precision; no error but rounding, the same bits on every processor
 };
 
-/// "exact", "euler1", "euler2", "newton", "newton-general", "affine", "estimate".
+/// "exact", "euler1", "euler2", "newton", "newton-direct", "newton-general", "affine", "estimate".
 std::string_view name_of(SpanMethod method);
 
 /// The method of that name; Error (usage) that names the nearest one.
 SpanMethod span_method_of(const std::string& name);
+
+enum class SpanPrecision { f32, f64 };
+std::string_view name_of(SpanPrecision precision); ///< "f32", "f64"
 
 struct SpanOptions {
   SpanMethod method = SpanMethod::exact;
@@ -42,9 +47,10 @@ struct SpanOptions {
 double method_bound(SpanMethod method, double distance, int steps);
 
 /// What rounding can add at pixel n, `steps` after a seed, in pixels: unit * (8 n + (steps + 4)(steps + 1)),
-/// unit 2^-24 for float and 2^-53 for double; without the last product for methods without steps.
+/// unit 2^-24 for float and 2^-53 for double; without the last product for the exact methods and
+/// newton_direct.
 ///
-/// Why: a step rounds once at the size of y (or of Newton's q, which is never corrected), so after j steps
+/// Why: a step rounds once at the size of y, or of Newton's q where that is a sum; so after j steps
 /// 1/(1 - bend n) is off by up to j units relative, j * unit / bend pixels; but it only scales an offset
 /// which is itself j pixels long, and counts for j / (1/bend) of that.
 double rounding_bound(SpanMethod method, int n, int steps, double unit);

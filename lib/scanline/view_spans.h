@@ -58,8 +58,6 @@ private:
   std::vector<Surface> surfaces;
 };
 
-enum class SpanPrecision { f32, f64 };
-
 /// How spans are stepped through.
 struct ViewStepping {
   SpanOptions options;

@@ -14,9 +14,9 @@ using namespace tilepack;
 
 namespace {
 
-constexpr SpanMethod all_methods[] = {SpanMethod::exact,   SpanMethod::euler1,         SpanMethod::euler2,
-                                      SpanMethod::newton,  SpanMethod::newton_general, SpanMethod::affine,
-                                      SpanMethod::estimate};
+constexpr SpanMethod all_methods[] = {
+    SpanMethod::exact,         SpanMethod::euler1,         SpanMethod::euler2, SpanMethod::newton,
+    SpanMethod::newton_direct, SpanMethod::newton_general, SpanMethod::affine, SpanMethod::estimate};
 
 // A span of `count` pixels whose horizon lies `behind` pixels after its last one.
 Span span_before_horizon(int count, double behind, double du = 0.01, double dv = -0.003) {
@@ -132,6 +132,8 @@ TEST_CASE("re-seeding cures what float accumulates over a long span") {
   CHECK(worst({SpanMethod::newton, 0}) > 3 * worst({SpanMethod::newton, 64}));
   CHECK(worst({SpanMethod::euler2, 64}) < 0.02);
   CHECK(worst({SpanMethod::newton, 64}) < 0.02);
+  // With its coefficient computed afresh Newton needs no cure.
+  CHECK(worst({SpanMethod::newton_direct, 0}) < 0.004);
 }
 
 TEMPLATE_TEST_CASE("hard spans give finite values, and those of the exact method where nothing steps", "",
