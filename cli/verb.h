@@ -33,6 +33,7 @@ Verb validate_verb();
 Verb render_verb();
 Verb compare_verb();
 Verb layouts_verb();
+Verb bench_verb();
 
 /// All verbs, in the order of the help listing.
 std::span<const Verb> verb_table();

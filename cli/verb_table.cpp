@@ -13,6 +13,7 @@ std::span<const Verb> verb_table() {
       render_verb(),
       compare_verb(),
       layouts_verb(),
+      bench_verb(),
   };
   return table;
 }

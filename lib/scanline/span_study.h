@@ -38,6 +38,9 @@ struct HardCase {
 std::vector<HardCase> hard_cases();
 
 enum class Contestant { division, listing1, listing2, euler2, newton, newton_direct, newton_general };
+constexpr Contestant all_contestants[] = {
+    Contestant::division, Contestant::listing1,      Contestant::listing2,      Contestant::euler2,
+    Contestant::newton,   Contestant::newton_direct, Contestant::newton_general};
 std::string_view name_of(Contestant contestant); ///< the first three work on a, b, c, d as they are
 
 /// The outcome of one coordinate: its largest error in pixels, and relative to its largest value; both
