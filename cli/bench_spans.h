@@ -27,7 +27,8 @@ struct HardFigures {
   std::vector<HardResult> f32, f64; ///< a Contestant each
 };
 
-/// The ground seen in 1920 x 1080, the camera rolled so that scanlines run towards the horizon.
+/// The ground seen in 1920 x 1080 (quick: 480 x 270), the camera rolled so that scanlines run towards the
+/// horizon.
 struct ViewFigures {
   SpanOptions options;
   SpanPrecision precision = SpanPrecision::f32;
@@ -43,6 +44,7 @@ struct SpanBench {
   std::vector<SpanFigures> methods;
   std::vector<HardFigures> hard;
   std::vector<ErrorCurve> curves;
+  Size view_size;
   std::vector<ViewFigures> views;
   std::int64_t view_pixels = 0;
   double set_up = 0;    ///< of the view, ns a pixel, one thread
@@ -62,6 +64,7 @@ struct SpanBenchArguments {
   std::string pack;   ///< empty: the view is stepped, but not textured
   std::string report; ///< HTML file, or empty
   std::string format = "text";
+  bool quick = false; ///< one rough round of timing, a small view
 };
 
 /// Measures, prints, and writes the report. Throws Error (check_failed) if an answer is wrong before timing.

@@ -138,7 +138,7 @@ std::string spans_html(const SpanBench& bench) {
       "svg{display:block;margin:1em 0;max-width:100%}</style></head><body>\n";
   html +=
       fmt::format("<h1>Perspective spans: speed against error</h1>\n<p>Vectors: {}. Times are medians of "
-                  "nine runs on this machine, in nanoseconds a pixel, both coordinates; their ratios tell "
+                  "eleven runs on this machine, in nanoseconds a pixel, both coordinates; their ratios tell "
                   "more than they do. Errors are measured against long double.</p>\n<h2>Which method "
                   "when</h2>\n<ul>\n",
                   escaped(bench.target));
@@ -165,10 +165,10 @@ std::string spans_html(const SpanBench& bench) {
       "counts 0.</p>\n";
   html += hard_table(bench);
   html += fmt::format(
-      "<h2>The ground in 1920 × 1080, camera rolled</h2>\n<p>{} pixels. Set-up of all spans {:.3f} "
+      "<h2>The ground in {} × {}, camera rolled</h2>\n<p>{} pixels. Set-up of all spans {:.3f} "
       "ns a pixel{}, one thread. Shifts against exact division in f64; near the horizon a pixel "
       "is thousands of level-0 texels wide, so texels of the mip level read there tell more.</p>\n",
-      bench.view_pixels, bench.set_up,
+      bench.view_size.width, bench.view_size.height, bench.view_pixels, bench.set_up,
       bench.texturing > 0 ? fmt::format(", texturing (trilinear, reference sampler) {:.0f}", bench.texturing)
                           : "");
   return html + view_table(bench) + "</body></html>\n";

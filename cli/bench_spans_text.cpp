@@ -15,6 +15,10 @@ std::string short_number(double value) {
   return value == 0 ? "0" : fmt::format("{:.2g}", value);
 }
 
+std::string pixels_text(const HardResult& result) {
+  return std::isfinite(result.relative) ? short_number(result.pixels) : "broken";
+}
+
 // JSON has no infinity.
 ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
@@ -62,17 +66,18 @@ std::string spans_text(const SpanBench& bench) {
                         f.one_by_one, f.side_by_side, f.fused);
     for (const SpanError& error : f.errors) text += fmt::format(" {:>8}", short_number(error.pixels));
   }
-  text += "\n\nHard cases, largest error in pixels (f32, f64); broken: infinite or NaN somewhere\n";
+  text += "\n\nHard cases, largest error in pixels, f32|f64; broken: infinite or NaN somewhere\n";
+  text += fmt::format("{:52}", "");
+  for (const char* name : {"division", "Listing 1", "Listing 2", "euler2", "newton", "n-direct", "n-general"})
+    text += fmt::format(" {:>15}", name);
   for (const HardFigures& hard : bench.hard) {
-    text += fmt::format("  {}\n", hard.name);
-    for (std::size_t i = 0; i < hard.f32.size(); ++i) {
-      text += fmt::format("    {:26} {:>8} {:>8}\n", name_of(all_contestants[i]),
-                          short_number(std::isfinite(hard.f32[i].relative) ? hard.f32[i].pixels : INFINITY),
-                          short_number(std::isfinite(hard.f64[i].relative) ? hard.f64[i].pixels : INFINITY));
-    }
+    text += fmt::format("\n{:52}", hard.name);
+    for (std::size_t i = 0; i < hard.f32.size(); ++i)
+      text += fmt::format(" {:>15}", pixels_text(hard.f32[i]) + "|" + pixels_text(hard.f64[i]));
   }
-  text += fmt::format("\nThe ground in 1920 x 1080, camera rolled: {} pixels; set-up {:.3f} ns a pixel{}\n",
-                      bench.view_pixels, bench.set_up,
+  text += "\n";
+  text += fmt::format("\nThe ground in {} x {}, camera rolled: {} pixels; set-up {:.3f} ns a pixel{}\n",
+                      bench.view_size.width, bench.view_size.height, bench.view_pixels, bench.set_up,
                       bench.texturing > 0 ? fmt::format(", texturing {:.0f}", bench.texturing) : "");
   text += fmt::format("{:30} {:>4} {:>9} {:>10} {:>10} {:>10} {:>7}\n", "method", "", "stepping", "pixels",
                       "texels", "mip texels", "PSNR");
@@ -136,7 +141,7 @@ std::string spans_json(const SpanBench& bench) {
                      {"psnr", view.psnr ? ordered_json(*view.psnr) : ordered_json(nullptr)}});
   }
   json["view"] = {
-      {"size", {1920, 1080}},
+      {"size", {bench.view_size.width, bench.view_size.height}},
       {"pixels", bench.view_pixels},
       {"ns_set_up", bench.set_up},
       {"ns_texturing", bench.texturing > 0 ? ordered_json(bench.texturing) : ordered_json(nullptr)},

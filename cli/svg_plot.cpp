@@ -123,9 +123,9 @@ std::string escaped(const std::string& text) {
 
 std::string svg_of(const Plot& plot) {
   const Axis x = axis_for(plot, true), y = axis_for(plot, false);
-  std::string svg = fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 760 420' width='760' "
+  std::string svg = fmt::format("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 820 420' width='820' "
                                 "height='420' font-family='sans-serif' font-size='11'>\n"
-                                "<rect width='760' height='420' fill='#fff'/>\n"
+                                "<rect width='820' height='420' fill='#fff'/>\n"
                                 "<text x='{}' y='22' font-size='14'>{}</text>\n",
                                 left, escaped(plot.title));
   svg += grid(x, y);

@@ -21,7 +21,7 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// A self-contained <svg> element, 760 x 420, with axes, grid and legend; no script, no reference outside.
+/// A self-contained <svg> element, 820 x 420, with axes, grid and legend; no script, no reference outside.
 std::string svg_of(const Plot& plot);
 
 /// Text with & < > " replaced, for HTML and SVG.

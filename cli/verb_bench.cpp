@@ -20,6 +20,7 @@ Action declare_bench(CLI::App& app) {
   app.add_option("--report", a->of_spans.report, "also write a page with tables and plots")
       ->type_name("FILE.html");
   app.add_option("--format", a->of_spans.format, "text (default) or json")->type_name("NAME");
+  app.add_flag("--quick", a->of_spans.quick, "one rough round of timing and a small view, for a first look");
   return [a](Console& console) { return bench_spans(a->of_spans, console); };
 }
 

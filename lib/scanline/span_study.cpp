@@ -195,9 +195,9 @@ std::vector<HardCase> hard_cases() {
           with("2 pixels", 3, 100, -1, 200, 2),
           with("16384 pixels, horizon 200 behind", 3, 100, -1, 16583, 16384),
           with("D = 0: a constant 3", -3, 6357, -1, 2119, 1920),
-          with("D near 0: the texture moves by 10^-3 tiles in all", -3.00005, 6357, -1, 2119, 1920),
+          with("D near 0: moves by 10^-3 tiles in all", -3.00005, 6357, -1, 2119, 1920),
           with("all near overflow: 10^38", 3e35, 1e37, -1e35, 2.119e38, 1920),
-          with("coordinates beyond any texture: 10^35 tiles", 1e35, 3e38, -1, 2119, 1920),
+          with("10^35 tiles away (ours are held at 2^61)", 1e35, 3e38, -1, 2119, 1920),
           with("denormal denominators: 10^-40 and less", 3e-43, 1e-41, -1e-43, 2.119e-40, 1920),
           with("from the far end: c > 0", -3, 5857, 1, 200, 1920),
           with("far start: a million tiles away", 3, 2.119e9, -1, 2119, 1920)};
