@@ -1,4 +1,5 @@
 #include "tilepack/mip/shared_border.h"
+#include "tilepack/verify/level_view.h"
 #include "tilepack/verify/structure_checks.h"
 #include "tilepack/verify/tile_border.h"
 
@@ -15,55 +16,6 @@
 namespace tilepack {
 namespace {
 
-// One level of one map with the rectangles of its tiles; only tiles that are placed within the image.
-struct LevelView {
-  const Pack* pack;
-  const PackedMap* map;
-  int level;
-  const Image* image;
-  Size tile;
-  std::vector<std::optional<Rect>> rects; // by tile id
-};
-
-std::string place(const PackedMap& map, int level) {
-  return fmt::format("map {}, level {}", map.name, level);
-}
-
-bool right_size(const Pack& pack, const Image& image, int level) {
-  return !image.empty() && image.size() == texture_size(pack.layout, pack.tile_size, level);
-}
-
-bool whole(double v) {
-  return v == std::floor(v);
-}
-
-// Turned tiles have no rows of texels along their edges that could be compared.
-std::optional<Rect> upright_rect(const Pack& pack, int tile, int level) {
-  const Placement at = placement(pack.layout, tile, pack.tile_size, level);
-  if (at.east.y != 0 || at.south.x != 0 || !whole(at.origin.x) || !whole(at.origin.y)) return std::nullopt;
-  return Rect{static_cast<int>(at.origin.x), static_cast<int>(at.origin.y), static_cast<int>(at.east.x),
-              static_cast<int>(at.south.y)};
-}
-
-bool inside(const Image& image, const Rect& rect) {
-  return rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
-         rect.x <= image.width() - rect.width && rect.y <= image.height() - rect.height;
-}
-
-LevelView view_of(const Pack& pack, const PackedMap& map, int level) {
-  const Image& image = map.levels[static_cast<std::size_t>(level)];
-  LevelView view{&pack, &map, level, &image, level_size(pack.tile_size, level), {}};
-  view.rects.resize(static_cast<std::size_t>(tile_count(pack.tiles)));
-  if (!right_size(pack, image, level) || pack.layout.kind == LayoutKind::rotated) return view;
-  for (std::size_t i = 0; i < std::min(pack.layout.cells.size(), view.rects.size()); ++i) {
-    const int tile = pack.layout.cells[i].tile;
-    if (tile != static_cast<int>(i)) continue; // told by check_layout
-    const auto rect = upright_rect(pack, tile, level);
-    if (rect && inside(image, *rect)) view.rects[i] = rect;
-  }
-  return view;
-}
-
 // Finds the first offending texel and their number; `good` judges a value.
 template <typename Good>
 void check_values(const LevelView& view, Rule rule, const char* expected, Good&& good,
@@ -79,7 +31,7 @@ void check_values(const LevelView& view, Rule rule, const char* expected, Good&&
   const std::size_t texel = first / channels;
   issues.push_back(
       {rule,
-       fmt::format("{}, texel ({}, {}) channel {}", place(*view.map, view.level), texel % width,
+       fmt::format("{}, texel ({}, {}) channel {}", place_name(*view.map, view.level), texel % width,
                    texel / width, first % channels),
        fmt::format("{}{}", values[first], bad > 1 ? fmt::format(" and {} more values", bad - 1) : ""),
        expected});
@@ -142,7 +94,7 @@ void compare_group(const LevelView& view, const std::vector<Member>& group, Texe
     const Rect& rect = *view.rects[member.tile];
     issues.push_back(
         {rule_at(static_cast<int>(first)),
-         fmt::format("{}, tile {}, {}", place(*view.map, view.level), member.tile, name(member.tile)),
+         fmt::format("{}, tile {}, {}", place_name(*view.map, view.level), member.tile, name(member.tile)),
          fmt::format("{} of {} texels differ, by up to {:.4g}{}; the first at ({}, {}) of the image",
                      differing, member.values.size() / channels, integer ? largest * 255 : largest,
                      integer ? "/255" : "", rect.x + spot.x, rect.y + spot.y),
@@ -275,9 +227,9 @@ std::vector<Issue> check_levels(const Pack& pack) {
                         fmt::format("{} levels, as mips.tile_levels says", pack.tile_levels)});
     for (int level = 0; level < levels; ++level) {
       const Image& image = map.levels[static_cast<std::size_t>(level)];
-      if (image.empty() || right_size(pack, image, std::min(level, 30))) continue;
+      if (image.empty() || has_right_size(pack, image, std::min(level, 30))) continue;
       const Size wanted_size = texture_size(pack.layout, pack.tile_size, std::min(level, 30));
-      issues.push_back({Rule::level_size, place(map, level),
+      issues.push_back({Rule::level_size, place_name(map, level),
                         fmt::format("{} x {} texels", image.width(), image.height()),
                         fmt::format("{} x {}", wanted_size.width, wanted_size.height)});
     }

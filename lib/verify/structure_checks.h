@@ -33,6 +33,11 @@ std::vector<Issue> check_levels(const Pack& pack);
 /// With colored edges the squares where two bands cross are free; with colored corners they are shared too.
 std::vector<Issue> check_texels(const Pack& pack);
 
+/// Coarser levels made from finer ones: a warning where a tile's inside is not the boxes of the level above
+/// it, as when one level was painted over and the others were not built again. Maps of 1 or 3 channels that
+/// are averaged as they are: color, height, data.
+std::vector<Issue> check_chain(const Pack& pack);
+
 /// All of these, in this order.
 std::vector<Issue> check_structure(const Pack& pack);
 

@@ -23,8 +23,7 @@ struct GoodPackOptions {
 
 /// A tile whose texels are noise, shared with other tiles exactly where a pack promises it: `rows` deep along
 /// each edge by the edge's color, everything else by the tile's id.
-inline Image noise_tile(const EdgeTile& colors, int id, Size size, int rows, int channels, Depth depth,
-                        int level) {
+inline Image noise_tile(const EdgeTile& colors, int id, Size size, int rows, int channels, Depth depth) {
   Image tile(size.width, size.height, channels);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
@@ -39,7 +38,7 @@ inline Image noise_tile(const EdgeTile& colors, int id, Size size, int rows, int
                 : west  ? 300 + colors.west
                         : 400 + colors.east;
       for (int c = 0; c < channels; ++c) {
-        const auto index = static_cast<std::uint64_t>(((owner * 64 + level) * 512 + y) * 512 + x) * 4 + c;
+        const auto index = static_cast<std::uint64_t>((owner * 512 + y) * 512 + x) * 4 + c;
         const float value = static_cast<float>(random_below(1, "noise", index, 256)) / 255.0f;
         tile.texel(x, y)[c] = quantised(value, depth);
       }
@@ -57,7 +56,7 @@ inline std::vector<int> shuffled(int n) {
   return table;
 }
 
-/// A pack without a fault, made without the stages that make real ones.
+/// A pack without a fault, of noise instead of a synthesized set.
 inline Pack good_pack(const GoodPackOptions& options = {}) {
   const auto tiles = complete_edge_set(options.colors.horizontal, options.colors.vertical);
   Pack pack;
@@ -70,14 +69,16 @@ inline Pack good_pack(const GoodPackOptions& options = {}) {
   pack.guard = options.guard;
   pack.tile_levels = options.mips == MipMode::none ? 1 : level_count(options.tile);
   PackedMap map{"color", Role::color, Encoding::srgb, options.depth, options.channels, {}};
-  for (int level = 0; level < pack.tile_levels; ++level) {
-    const int rows = std::max(level > 0 ? 1 : 0, options.guard >> level);
-    std::vector<Image> images;
-    for (int id = 0; id < tile_count(pack.tiles); ++id)
-      images.push_back(noise_tile(tiles[id], id, level_size(options.tile, level), rows, options.channels,
-                                  options.depth, level));
-    map.levels.push_back(atlas(images, pack.layout));
-  }
+  TileSet set{options.tile,
+              options.colors,
+              tiles,
+              {{"color", Role::color, Encoding::srgb, options.depth, {}}},
+              options.guard};
+  for (int id = 0; id < tile_count(pack.tiles); ++id)
+    set.maps[0].tiles.push_back(
+        noise_tile(tiles[id], id, options.tile, options.guard, options.channels, options.depth));
+  for (const TileMap& level : mip_chain(set, 0, {.mode = options.mips}))
+    map.levels.push_back(quantised(atlas(level.tiles, pack.layout), options.depth));
   pack.maps.push_back(map);
   pack.mapping.kind = MappingKind::permutation;
   pack.mapping.size = {8, 8};

@@ -89,6 +89,16 @@ const Corruption corruptions[] = {
      [](Pack& p) { p.mapping.size.height = (std::int64_t{1} << 31) + 1; }},
     {"a level too few", Rule::levels_missing, [](Pack& p) { p.maps[0].levels.pop_back(); }},
     {"levels announced that no tile has", Rule::levels_missing, [](Pack& p) { p.tile_levels = 6; }},
+    {"a tile painted over at level 0 alone", Rule::level_stale,
+     [](Pack& p) {
+       for (int y = 4; y < 12; ++y)
+         for (int x = 4; x < 12; ++x) std::ranges::fill(texel(p, 0, 9, x, y), 0.0f);
+     }},
+    {"a tile painted over at a coarser level alone", Rule::level_stale,
+     [](Pack& p) {
+       for (int y = 2; y < 6; ++y)
+         for (int x = 2; x < 6; ++x) change(texel(p, 1, 9, x, y)[0]);
+     }},
     {"a level of another size", Rule::level_size, [](Pack& p) { p.maps[0].levels[2] = Image(15, 16, 3); }},
 };
 

@@ -1,0 +1,52 @@
+#include "tilepack/verify/level_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tilepack {
+namespace {
+
+bool whole(double v) {
+  return v == std::floor(v);
+}
+
+// Turned tiles have no rows of texels along their edges that could be compared.
+std::optional<Rect> upright_rect(const Pack& pack, int tile, int level) {
+  const Placement at = placement(pack.layout, tile, pack.tile_size, level);
+  if (at.east.y != 0 || at.south.x != 0 || !whole(at.origin.x) || !whole(at.origin.y)) return std::nullopt;
+  return Rect{static_cast<int>(at.origin.x), static_cast<int>(at.origin.y), static_cast<int>(at.east.x),
+              static_cast<int>(at.south.y)};
+}
+
+bool inside(const Image& image, const Rect& rect) {
+  return rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
+         rect.x <= image.width() - rect.width && rect.y <= image.height() - rect.height;
+}
+
+} // namespace
+
+bool has_right_size(const Pack& pack, const Image& image, int level) {
+  return !image.empty() && image.size() == texture_size(pack.layout, pack.tile_size, level);
+}
+
+std::string place_name(const PackedMap& map, int level) {
+  return fmt::format("map {}, level {}", map.name, level);
+}
+
+LevelView view_of(const Pack& pack, const PackedMap& map, int level) {
+  const Image& image = map.levels[static_cast<std::size_t>(level)];
+  LevelView view{&pack, &map, level, &image, level_size(pack.tile_size, level), {}};
+  view.rects.resize(static_cast<std::size_t>(tile_count(pack.tiles)));
+  if (!has_right_size(pack, image, level) || pack.layout.kind == LayoutKind::rotated) return view;
+  for (std::size_t i = 0; i < std::min(pack.layout.cells.size(), view.rects.size()); ++i) {
+    const int tile = pack.layout.cells[i].tile;
+    if (tile != static_cast<int>(i)) continue;
+    const auto rect = upright_rect(pack, tile, level);
+    if (rect && inside(image, *rect)) view.rects[i] = rect;
+  }
+  return view;
+}
+
+} // namespace tilepack

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "tilepack/pack/pack.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tilepack {
+
+/// One level of one map of a pack, with the rectangles its tiles take in the image. Borrows from the pack.
+struct LevelView {
+  const Pack* pack = nullptr;
+  const PackedMap* map = nullptr;
+  int level = 0;
+  const Image* image = nullptr;
+  Size tile;                              ///< of a tile at this level
+  std::vector<std::optional<Rect>> rects; ///< by id; absent for turned tiles, and where the layout or the
+                                          ///< image is at fault, which other checks tell
+};
+
+LevelView view_of(const Pack& pack, const PackedMap& map, int level);
+
+/// The size the layout asks for at this level, and not empty.
+bool has_right_size(const Pack& pack, const Image& image, int level);
+
+/// "map color, level 2".
+std::string place_name(const PackedMap& map, int level);
+
+} // namespace tilepack
