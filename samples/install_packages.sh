@@ -3,8 +3,8 @@
 #   install_packages test     and what its tests need
 # This is the one list of them.
 
-build_packages="g++ cmake ninja-build libopenimageio-dev libimath-dev libopencv-core-dev libopencv-imgproc-dev libcli11-dev
-  nlohmann-json3-dev libtbb-dev libhwy-dev libfmt-dev libxxhash-dev"
+build_packages="g++ cmake ninja-build libopenimageio-dev libimath-dev libopencv-core-dev libopencv-imgproc-dev
+  libcli11-dev nlohmann-json3-dev libtbb-dev libhwy-dev libfmt-dev libxxhash-dev"
 test_packages="catch2 clang-14 libclang-rt-14-dev python3 python3-jsonschema"
 
 # Words of $1 that are no installed package. All of them where there is no dpkg.
