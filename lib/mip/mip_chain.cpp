@@ -64,7 +64,7 @@ Levels box_levels(const TileMap& map, int levels) {
   Levels boxes(as_size(levels));
   for (std::size_t level = 1; level < boxes.size(); ++level) boxes[level].resize(map.tiles.size());
   tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
-    boxes[1][id] = halved(decoded(map.tiles[id], map), weighting);
+    boxes[1][id] = halved_decoded(map.tiles[id], map);
     for (std::size_t level = 2; level < boxes.size(); ++level)
       boxes[level][id] = halved(boxes[level - 1][id], weighting);
   });
@@ -115,15 +115,14 @@ bool exact_through_guard(int guard, int level) {
   return level == 0 || (level < 31 && (1 << level) <= guard);
 }
 
-std::vector<TileMap> mip_chain(const TileSet& set, int map_index, const MipOptions& options,
-                               const Layout* layout) {
+std::vector<TileMap> coarser_levels(const TileSet& set, int map_index, const MipOptions& options,
+                                    const Layout* layout) {
   const TileMap& map = set.maps[as_size(map_index)];
   const int levels = options.mode == MipMode::none ? 1 : level_count(set.tile_size);
-  std::vector<TileMap> chain;
-  for (int level = 0; level < levels; ++level)
-    chain.push_back({map.name, map.role, map.encoding, map.depth, {}});
-  chain.front().tiles = map.tiles;
-  if (levels == 1) return chain;
+  std::vector<TileMap> coarser;
+  for (int level = 1; level < levels; ++level)
+    coarser.push_back({map.name, map.role, map.encoding, map.depth, std::vector<Image>(map.tiles.size())});
+  if (levels == 1) return coarser;
 
   Levels boxes = box_levels(map, levels);
   if (const TileMap* normals = normals_for(map, set, options)) {
@@ -149,11 +148,17 @@ std::vector<TileMap> mip_chain(const TileSet& set, int map_index, const MipOptio
     tbb::parallel_for(1, levels,
                       [&](int level) { keep_alpha_coverage(boxes[as_size(level)], threshold, coverage); });
   }
-  for (int level = 1; level < levels; ++level) chain[as_size(level)].tiles.resize(map.tiles.size());
   tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
     for (std::size_t level = 1; level < boxes.size(); ++level)
-      chain[level].tiles[id] = encoded(std::move(boxes[level][id]), map);
+      coarser[level - 1].tiles[id] = encoded(std::move(boxes[level][id]), map);
   });
+  return coarser;
+}
+
+std::vector<TileMap> mip_chain(const TileSet& set, int map_index, const MipOptions& options,
+                               const Layout* layout) {
+  std::vector<TileMap> chain = coarser_levels(set, map_index, options, layout);
+  chain.insert(chain.begin(), set.maps[as_size(map_index)]);
   return chain;
 }
 

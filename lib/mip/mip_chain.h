@@ -52,4 +52,8 @@ bool exact_through_guard(int guard, int level);
 std::vector<TileMap> mip_chain(const TileSet& set, int map, const MipOptions& options,
                                const Layout* layout = nullptr);
 
+/// The same without level 0, which saves copying it.
+std::vector<TileMap> coarser_levels(const TileSet& set, int map, const MipOptions& options,
+                                    const Layout* layout = nullptr);
+
 } // namespace tilepack

@@ -1,6 +1,7 @@
 #include "tilepack/mip/value_space.h"
 
 #include "tilepack/image/encoding.h"
+#include "tilepack/mip/srgb_tables.h"
 
 #include <cmath>
 #include <cstddef>
@@ -36,8 +37,17 @@ Image decoded(const Image& tile, const TileMap& map) {
   return result;
 }
 
+Image halved_decoded(const Image& tile, const TileMap& map) {
+  const bool codes = map.role == Role::color && map.encoding == Encoding::srgb && map.depth == Depth::u8;
+  if (codes && tile.channels() % 2 == 1) return halved_from_srgb(tile);
+  return halved(decoded(tile, map), weighting_of(map));
+}
+
 Image encoded(Image tile, const TileMap& map) {
-  if (map.role == Role::color) return from_linear(tile, map.encoding);
+  if (map.role == Role::color) {
+    if (map.encoding == Encoding::srgb) encode_srgb(tile);
+    return tile;
+  }
   if (map.role != Role::normal) return tile;
   make_unit(tile);
   for (float& v : tile.data()) v = v * 0.5f + 0.5f;

@@ -10,6 +10,9 @@ namespace tilepack {
 /// but rounding), stored values for the rest.
 Image decoded(const Image& tile, const TileMap& map);
 
+/// halved(decoded(tile, map), weighting_of(map)).
+Image halved_decoded(const Image& tile, const TileMap& map);
+
 /// Back to what is stored. Vectors of any length are made unit ones; the null vector points up.
 Image encoded(Image tile, const TileMap& map);
 

@@ -1,0 +1,122 @@
+#include "tilepack/mip/srgb_tables.h"
+
+#include "tilepack/image/encoding.h"
+#include "tilepack/mip/downsample.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace tilepack {
+namespace {
+
+using DecodeTable = std::array<float, 256>;
+
+const DecodeTable& decode_table() {
+  static const DecodeTable table = [] {
+    DecodeTable t{};
+    for (std::size_t code = 0; code < t.size(); ++code)
+      t[code] = static_cast<float>(srgb_to_linear(static_cast<double>(static_cast<float>(code) / 255.0f)));
+    return t;
+  }();
+  return table;
+}
+
+// Decodes two rows and halves them. Returns how far the values are from codes of 8 bits, at most.
+template <std::size_t channels>
+float halve_codes(const float* north, const float* south, float* to, std::size_t width, int* codes) {
+  const DecodeTable& linear = decode_table();
+  const std::size_t length = 2 * width * channels;
+  float off = 0.0f;
+  for (int line = 0; line < 2; ++line) { // apart from the look-ups, so that it runs in vector registers
+    const float* from = line == 0 ? north : south;
+    int* code = codes + static_cast<std::size_t>(line) * length;
+    for (std::size_t i = 0; i < length; ++i) {
+      const float scaled = from[i] * 255.0f;
+      code[i] = static_cast<int>(std::max(0.0f, std::min(255.0f, scaled)) + 0.5f);
+      off = std::max(off, std::abs(scaled - static_cast<float>(code[i])));
+    }
+  }
+  const int* n = codes;
+  const int* s = codes + length;
+  const auto value = [&](int code) { return linear[static_cast<std::size_t>(code)]; };
+  for (std::size_t x = 0; x < width; ++x, n += 2 * channels, s += 2 * channels, to += channels)
+    for (std::size_t c = 0; c < channels; ++c)
+      to[c] = ((value(n[c]) + value(n[c + channels])) + (value(s[c]) + value(s[c + channels]))) * 0.25f;
+  return off;
+}
+
+// Over the piece with number i from `first_bits`, the code of t in [0, 1) is a + t (b + t c).
+struct Parabola {
+  float a, b, c;
+};
+constexpr int piece_bits = 17;                   // of the 23 of a float's mantissa: 64 pieces an octave
+constexpr float table_begin = 0.00323486328125f; // the first end of a piece past the linear segment
+constexpr std::uint32_t first_bits = std::bit_cast<std::uint32_t>(table_begin);
+constexpr std::size_t pieces = (std::bit_cast<std::uint32_t>(1.0f) - first_bits) >> piece_bits;
+static_assert((first_bits & ((1u << piece_bits) - 1)) == 0);
+using EncodeTable = std::array<Parabola, pieces>;
+
+const EncodeTable& encode_table() {
+  static const EncodeTable table = [] {
+    EncodeTable t{};
+    const auto at = [](std::uint32_t bits) {
+      return linear_to_srgb(static_cast<double>(std::bit_cast<float>(bits)));
+    };
+    for (std::size_t i = 0; i < pieces; ++i) { // through the ends and the middle of the piece
+      const std::uint32_t bits = first_bits + static_cast<std::uint32_t>(i << piece_bits);
+      const double begin = at(bits);
+      const double middle = at(bits + (1u << (piece_bits - 1)));
+      const double end = at(bits + (1u << piece_bits));
+      t[i] = {static_cast<float>(begin), static_cast<float>(4 * middle - 3 * begin - end),
+              static_cast<float>(2 * begin - 4 * middle + 2 * end)};
+    }
+    return t;
+  }();
+  return table;
+}
+
+float encoded_value(float v, const EncodeTable& table) {
+  if (!(v >= table_begin && v < 1.0f)) return static_cast<float>(linear_to_srgb(static_cast<double>(v)));
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(v) - first_bits;
+  const Parabola& p = table[bits >> piece_bits];
+  const float t =
+      static_cast<float>(static_cast<int>(bits & ((1u << piece_bits) - 1))) * (1.0f / (1 << piece_bits));
+  return p.a + t * (p.b + t * p.c);
+}
+
+} // namespace
+
+Image halved_from_srgb(const Image& image) {
+  Image result(image.width() / 2, image.height() / 2, image.channels());
+  std::vector<int> codes(image.row(0).size() * 2);
+  float off = 0.0f;
+  for (int y = 0; y < result.height(); ++y) {
+    const float* north = image.row(2 * y).data();
+    const float* south = image.row(2 * y + 1).data();
+    float* to = result.row(y).data();
+    const auto width = static_cast<std::size_t>(result.width());
+    off = std::max(off, image.channels() == 1 ? halve_codes<1>(north, south, to, width, codes.data())
+                                              : halve_codes<3>(north, south, to, width, codes.data()));
+    if (!(off < 1e-4f)) return halved(to_linear(image, Encoding::srgb), Weighting::plain);
+  }
+  return result;
+}
+
+void encode_srgb(Image& image) {
+  const EncodeTable& table = encode_table();
+  const auto channels = static_cast<std::size_t>(image.channels());
+  const std::size_t colors = channels % 2 == 0 ? channels - 1 : channels;
+  auto& values = image.data();
+  if (colors == channels) {
+    for (float& v : values) v = encoded_value(v, table);
+    return;
+  }
+  for (std::size_t i = 0; i < values.size(); i += channels)
+    for (std::size_t c = 0; c < colors; ++c) values[i + c] = encoded_value(values[i + c], table);
+}
+
+} // namespace tilepack
