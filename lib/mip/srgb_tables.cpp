@@ -25,28 +25,38 @@ const DecodeTable& decode_table() {
   return table;
 }
 
-// Decodes two rows and halves them. Returns how far the values are from codes of 8 bits, at most.
+// The 8-bit codes of `count` values. Returns other than 0 if some value is none. Comparisons are of the bit
+// patterns, as integers, since those of floats keep the loop from vector registers.
+int find_codes(const float* values, int* codes, std::size_t count) {
+  constexpr int one = std::bit_cast<int>(1.0f);
+  constexpr int least_off = std::bit_cast<int>(1e-4f); // in codes; a code's own rounding is below 2e-5
+  int strays = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int bits = std::bit_cast<int>(values[i]);
+    const int kept = std::min(std::max(bits, 0), one); // below 0 the sign bit is set
+    const float scaled = std::bit_cast<float>(kept) * 255.0f;
+    const int code = static_cast<int>(scaled + 0.5f);
+    const int off = std::bit_cast<int>(scaled - static_cast<float>(code)) & 0x7fffffff;
+    codes[i] = code;
+    strays |= (kept ^ bits) | (off > least_off ? 1 : 0);
+  }
+  return strays;
+}
+
+// Decodes two rows and halves them. Returns other than 0 if some value is no code of 8 bits.
 template <std::size_t channels>
-float halve_codes(const float* north, const float* south, float* to, std::size_t width, int* codes) {
+int halve_codes(const float* north, const float* south, float* to, std::size_t width, int* codes) {
   const DecodeTable& linear = decode_table();
   const std::size_t length = 2 * width * channels;
-  float off = 0.0f;
-  for (int line = 0; line < 2; ++line) { // apart from the look-ups, so that it runs in vector registers
-    const float* from = line == 0 ? north : south;
-    int* code = codes + static_cast<std::size_t>(line) * length;
-    for (std::size_t i = 0; i < length; ++i) {
-      const float scaled = from[i] * 255.0f;
-      code[i] = static_cast<int>(std::max(0.0f, std::min(255.0f, scaled)) + 0.5f);
-      off = std::max(off, std::abs(scaled - static_cast<float>(code[i])));
-    }
-  }
+  // Apart from the look-ups, so that it runs in vector registers.
+  const int strays = find_codes(north, codes, length) | find_codes(south, codes + length, length);
   const int* n = codes;
   const int* s = codes + length;
   const auto value = [&](int code) { return linear[static_cast<std::size_t>(code)]; };
   for (std::size_t x = 0; x < width; ++x, n += 2 * channels, s += 2 * channels, to += channels)
     for (std::size_t c = 0; c < channels; ++c)
       to[c] = ((value(n[c]) + value(n[c + channels])) + (value(s[c]) + value(s[c + channels]))) * 0.25f;
-  return off;
+  return strays;
 }
 
 // Over the piece with number i from `first_bits`, the code of t in [0, 1) is a + t (b + t c).
@@ -93,15 +103,14 @@ float encoded_value(float v, const EncodeTable& table) {
 Image halved_from_srgb(const Image& image) {
   Image result(image.width() / 2, image.height() / 2, image.channels());
   std::vector<int> codes(image.row(0).size() * 2);
-  float off = 0.0f;
   for (int y = 0; y < result.height(); ++y) {
     const float* north = image.row(2 * y).data();
     const float* south = image.row(2 * y + 1).data();
     float* to = result.row(y).data();
     const auto width = static_cast<std::size_t>(result.width());
-    off = std::max(off, image.channels() == 1 ? halve_codes<1>(north, south, to, width, codes.data())
-                                              : halve_codes<3>(north, south, to, width, codes.data()));
-    if (!(off < 1e-4f)) return halved(to_linear(image, Encoding::srgb), Weighting::plain);
+    const int strays = image.channels() == 1 ? halve_codes<1>(north, south, to, width, codes.data())
+                                             : halve_codes<3>(north, south, to, width, codes.data());
+    if (strays != 0) return halved(to_linear(image, Encoding::srgb), Weighting::plain);
   }
   return result;
 }
