@@ -1,3 +1,4 @@
+#include "inspect_mapping.h"
 #include "verb.h"
 
 #include "tilepack/error/nearest_name.h"
@@ -31,6 +32,7 @@ struct InspectArguments {
   int tiles = 8;
   int worst = 3;
   bool bare = false;
+  bool mapping = false;
 };
 
 int map_named(const Pack& pack, const std::string& name) {
@@ -63,6 +65,13 @@ void write_drawing(const std::string& file, const Drawing& drawing) {
     write_image(file, rasterised(drawing), Depth::u8, Encoding::srgb);
   else
     throw Error(ErrorKind::usage, file, "pictures are written as .png or .svg");
+}
+
+int run_inspect_mapping(const InspectArguments& arguments, Console& console) {
+  const Pack pack = read_pack(arguments.pack);
+  if (!arguments.picture.empty()) write_drawing(arguments.picture, mapping_drawing(pack));
+  console.print(mapping_report(pack, arguments.format));
+  return 0;
 }
 
 int run_inspect(const InspectArguments& arguments, Console& console) {
@@ -108,7 +117,11 @@ Action declare_inspect(CLI::App& app) {
       ->check(CLI::Range(0, 1000))
       ->type_name("N");
   app.add_flag("--bare", arguments->bare, "draw without colors and ids");
-  return [arguments](Console& console) { return run_inspect(*arguments, console); };
+  app.add_flag("--mapping", arguments->mapping,
+               "statistics of the mapping instead, beside tables of 8 to 4096 entries; --picture draws them");
+  return [arguments](Console& console) {
+    return arguments->mapping ? run_inspect_mapping(*arguments, console) : run_inspect(*arguments, console);
+  };
 }
 
 } // namespace
@@ -116,7 +129,8 @@ Action declare_inspect(CLI::App& app) {
 Verb inspect_verb() {
   return {"inspect", "show what a pack holds, in text, JSON or pictures",
           "  tilepack inspect gravel.pack --picture pack.png --preview texture.png\n"
-          "  tilepack inspect gravel.pack --format json\n",
+          "  tilepack inspect gravel.pack --format json\n"
+          "  tilepack inspect gravel.pack --mapping --picture mapping.png\n",
           declare_inspect};
 }
 

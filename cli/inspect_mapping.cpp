@@ -1,0 +1,37 @@
+#include "inspect_mapping.h"
+
+#include "tilepack/mapping/survey.h"
+
+namespace tilepack::cli {
+namespace {
+
+constexpr int cells = 32; // a side of each picture, as in the paper
+constexpr int pixels = 192;
+
+std::vector<SurveyedMapping> survey_of(const Pack& pack) {
+  return mapping_survey(pack.mapping, pack.colors, pack.generator.seed);
+}
+
+} // namespace
+
+std::string mapping_report(const Pack& pack, const std::string& format) {
+  const std::vector<SurveyedMapping> survey = survey_of(pack);
+  return format == "json" ? survey_json(survey) : survey_text(survey);
+}
+
+Drawing mapping_drawing(const Pack& pack) {
+  const std::vector<SurveyedMapping> survey = survey_of(pack);
+  const SurveySheet sheet = survey_sheet(survey, pack.colors, cells, pixels);
+  Drawing drawing{sheet.picture, {}, {}};
+  for (std::size_t i = 0; i < survey.size(); ++i) {
+    const Rect panel = sheet.panels[i];
+    if (survey[i].mapping.table.empty()) continue;
+    drawing.numbers.push_back({{panel.x + panel.width / 2.0, panel.y + panel.height * 1.09},
+                               panel.height * 0.1,
+                               static_cast<int>(survey[i].mapping.table.size()),
+                               {0, 0, 0, 1}});
+  }
+  return drawing;
+}
+
+} // namespace tilepack::cli
