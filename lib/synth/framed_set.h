@@ -20,6 +20,7 @@ struct FramedSetSettings {
   FrameSearchOptions frame;
   InteriorOptions interiors;
   MendOptions mend;
+  int strip_spots = 4; ///< as mend.spots, for each strip
   PolishOptions polish;
 };
 

@@ -1,6 +1,7 @@
 #include "tilepack/synth/interiors.h"
 
 #include "tilepack/synth/cut_move.h"
+#include "tilepack/synth/path_cut.h"
 #include "tilepack/tileset/random.h"
 
 #include <tbb/parallel_for.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace tilepack {
 namespace {
@@ -149,6 +151,53 @@ std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
   return choices;
 }
 
+// How well a window joins the strips: for each side of the tile the cost of the best cut from end to end,
+// through what is known of it there. Nearer to the truth than the mismatch of the whole overlap, but too slow
+// to be counted everywhere.
+std::int64_t cut_misfit(const FeatureImage& image, const Shown& shown, SourceTexel place, int depth) {
+  const int w = shown.features.width;
+  const int h = shown.features.height;
+  std::int64_t sum = 0;
+  for (int side = 0; side < 4; ++side) {
+    const bool horizontal = side < 2;
+    const bool far = side % 2 == 1;
+    const int length = horizontal ? w : h;
+    const int across = std::min(depth, (horizontal ? h : w) / 2);
+    MismatchGrid grid{length, across, {}};
+    grid.values.reserve(static_cast<std::size_t>(length) * static_cast<std::size_t>(across));
+    for (int along = 0; along < length; ++along)
+      for (int k = 0; k < across; ++k) {
+        const int from_border = far ? (horizontal ? h : w) - 1 - k : k;
+        const int x = horizontal ? along : from_border;
+        const int y = horizontal ? from_border : along;
+        const bool known = shown.known[static_cast<std::size_t>(y * w + x)] != 0;
+        grid.values.push_back(known ? squared_difference(image.texel(place.x + x, place.y + y),
+                                                         shown.features.texel(x, y), image.channels)
+                                    : 0);
+      }
+    std::vector<CutRange> ranges;
+    for (int along = 0; along < length; ++along) {
+      const int room = std::min({across, along + 1, length - along}); // the diagonals bound the side
+      ranges.push_back({std::min(1, room), room});
+    }
+    sum += minimum_error_cut(grid, ranges, std::min(1, across)).cost;
+  }
+  return sum;
+}
+
+// Of the choices with the least mismatch, their misfit counted anew as the cost of cuts.
+void recount(const FeatureImage& image, const Shown& shown, int depth, std::size_t kept,
+             std::vector<Choice>& choices) {
+  const std::size_t count = std::min(kept, choices.size());
+  std::partial_sort(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(count), choices.end(),
+                    [](const Choice& a, const Choice& b) {
+                      return std::tuple(a.misfit, a.place.y, a.place.x) <
+                             std::tuple(b.misfit, b.place.y, b.place.x);
+                    });
+  choices.resize(count);
+  for (Choice& choice : choices) choice.misfit = cut_misfit(image, shown, choice.place, depth);
+}
+
 void add_strips(const FrameShape& shape, const FramePlan& plan, int scale, Usage& usage) {
   const double h = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.horizontal.size());
   const double v = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.vertical.size());
@@ -224,6 +273,9 @@ std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyram
     Shown shown = shown_by(pyramid.front(), shape, framed[id]);
     for (int level = 1; level < levels; ++level) shown = halved_shown(shown);
     choices[id] = block_minima(search.mismatches(overlap_of(shown)), limit);
+    if (options.recounted > 0)
+      recount(small, shown, std::max(1, shape.reach / scale), static_cast<std::size_t>(options.recounted),
+              choices[id]);
   });
   report(progress, "interiors", 0.5);
 

@@ -21,12 +21,11 @@ bool in_guard(const FrameShape& shape, int x, int y);
 
 struct InteriorOptions {
   std::uint64_t seed = 0;
-  double freshness =
-      3.0; ///< how much worse a fit may be to show parts of the sample not shown yet: at 1, twice
-           ///< as bad rather than show again what is already shown as often as the average
+  double freshness = 4.0; ///< at f, a part shown as often as the average makes a fit count 1 + f times as bad
   double likeness = 300.0; ///< weight of the distance between what the set shows and the sample's statistics
   int rounds = 3;          ///< passes over all tiles
-  std::int64_t bias = 0;   ///< see apply_move
+  int recounted = 0; ///< windows of least mismatch whose cuts are counted; the others are dropped. 0: none
+  std::int64_t bias = 0; ///< see apply_move
 };
 
 /// Chooses a window of the sample for the inside of each tile, all tiles together: by how it fits the tile's

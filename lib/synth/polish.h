@@ -8,12 +8,12 @@
 namespace tilepack {
 
 struct PolishOptions {
-  std::uint64_t seed = 0;  ///< a different one for each canvas
-  int passes = 2;          ///< look-up and vote this many times
-  int sweeps = 3;          ///< sweeps of the look-up in each pass
-  int reach = 8;           ///< texels this far from a seam may change
-  double doubt = 100;      ///< mean squared difference (a channel of a texel) at which a match counts half as much as an
-                           ///< exact one
+  std::uint64_t seed = 0; ///< a different one for each canvas
+  int passes = 2;         ///< look-up and vote this many times
+  int sweeps = 3;         ///< sweeps of the look-up in each pass
+  int reach = 8;          ///< texels this far from a seam may change
+  double doubt = 500; ///< mean squared difference (a channel of a texel) at which a match counts half as much
+                      ///< as an exact one
   int seam_threshold = 64; ///< seams that cost no more are left alone
 };
 
