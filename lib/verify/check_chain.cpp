@@ -32,6 +32,19 @@ double full_range(const PackedMap& map) {
   return largest > 0 ? largest : 1;
 }
 
+// to_linear() with the 256 codes of 8-bit maps looked up: it is most of the work otherwise.
+Image decoded(Image tile, Encoding encoding, Depth depth) {
+  if (encoding == Encoding::linear) return tile;
+  if (depth != Depth::u8) return to_linear(tile, encoding);
+  static const std::vector<float> table = [] {
+    Image codes(256, 1, 1);
+    for (int i = 0; i < 256; ++i) codes.texel(i, 0)[0] = static_cast<float>(i) / 255.0f;
+    return to_linear(codes, Encoding::srgb).data();
+  }();
+  for (float& value : tile.data()) value = table[static_cast<std::size_t>(code_of(value, 255))];
+  return tile;
+}
+
 // RMS of a tile's texels against the boxes of the finer level, without the outermost row: that one is
 // sanitized. Only finer texels off the border go into the others, so what was sanitized there does not
 // matter.
@@ -41,13 +54,13 @@ std::optional<double> rms_inside(const LevelView& fine, const LevelView& coarse,
   if (!from || !to || to->width < 3 || to->height < 3) return std::nullopt;
   if (from->width != 2 * to->width || from->height != 2 * to->height) return std::nullopt;
   const Encoding encoding = fine.map->role == Role::color ? fine.map->encoding : Encoding::linear;
-  const Image expected =
-      from_linear(halved(to_linear(crop(*fine.image, *from), encoding), Weighting::plain), encoding);
+  const Image boxes = halved(decoded(crop(*fine.image, *from), encoding, fine.map->depth), Weighting::plain);
+  const Image expected = from_linear(crop(boxes, {1, 1, to->width - 2, to->height - 2}), encoding);
   double sum = 0;
   for (int y = 1; y < to->height - 1; ++y)
     for (int x = 1; x < to->width - 1; ++x) {
       const auto is = coarse.image->texel(to->x + x, to->y + y);
-      const auto should = expected.texel(x, y);
+      const auto should = expected.texel(x - 1, y - 1);
       for (std::size_t c = 0; c < is.size(); ++c) {
         const double difference = static_cast<double>(is[c]) - static_cast<double>(should[c]);
         if (std::isfinite(difference)) sum += difference * difference;
