@@ -2,6 +2,7 @@
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mip/border_keys.h"
 #include "tilepack/mip/least_squares.h"
+#include "tilepack/mip/shared_border.h"
 #include "tilepack/tileset/random.h"
 
 #include <algorithm>
@@ -262,4 +263,27 @@ TEST_CASE("clamped tiles of a texture array: a heavy weight makes both sides of 
         if (set[a].east == set[b].west)
           CHECK(tiles[a].texel(5, i)[0] == Approx(tiles[b].texel(0, i)[0]).margin(0.01));
       }
+}
+
+TEST_CASE("at no more jump the error is below that of averaged edges") {
+  const Problem p = edge_problem({4, 4}, 2, 1, 0);
+  std::vector<Image> averaged = p.box;
+  for (const SharedTexels& group : shared_border(p.colors, p.size, MipMode::edges))
+    for (const Place place : group.places) {
+      double mean = 0;
+      for (const int id : group.tiles)
+        mean += static_cast<double>(averaged[as_size(id)].texel(place.x, place.y)[0]) /
+                static_cast<double>(group.tiles.size());
+      for (const int id : group.tiles)
+        averaged[as_size(id)].texel(place.x, place.y)[0] = static_cast<float>(mean);
+    }
+  const double allowed = brute_force_jump(p, averaged);
+  double least_error = 1e9;
+  for (const double weight : {0.0, 0.1, 0.2, 0.4, 0.8, 1.6}) {
+    Problem weighted = p;
+    weighted.jump_weight = weight;
+    const std::vector<Image> best = solved(weighted);
+    if (brute_force_jump(p, best) <= allowed) least_error = std::min(least_error, brute_force_error(p, best));
+  }
+  CHECK(least_error < 0.95 * brute_force_error(p, averaged));
 }
