@@ -1,7 +1,12 @@
 #include "bake_report.h"
 
+#include "tilepack/error/error.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
 
 namespace tilepack::cli {
 namespace {
@@ -9,6 +14,11 @@ namespace {
 std::string colors_text(const Pack& pack) {
   if (coloring_of(pack.tiles) == Coloring::corner) return fmt::format("{} corner colors", pack.colors.corner);
   return fmt::format("{} x {} edge colors", pack.colors.horizontal, pack.colors.vertical);
+}
+
+template <typename Count>
+std::string counted(Count count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 std::string escaped(const std::string& path) {
@@ -31,9 +41,9 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
   for (std::size_t m = 0; m < pack.maps.size(); ++m) {
     const PackedMap& map = pack.maps[m];
     const Size size = made.map_files[m].front().size;
-    text += fmt::format("  {:<9} {} x {} texels, {} levels, {} channels, {} {}, from {}\n", map.name,
-                        size.width, size.height, made.map_files[m].size(), map.channels, name_of(map.depth),
-                        name_of(map.encoding), made.map_files[m].front().file);
+    text += fmt::format("  {:<9} {} x {} texels, {}, {}, {} {}, from {}\n", map.name, size.width, size.height,
+                        counted(made.map_files[m].size(), "level"), counted(map.channels, "channel"),
+                        name_of(map.depth), name_of(map.encoding), made.map_files[m].front().file);
   }
   text += fmt::format("  {:<9} {}, {} x {} tiles\n", "mapping", name_of(pack.mapping.kind),
                       pack.mapping.size.width, pack.mapping.size.height);
@@ -68,6 +78,29 @@ std::string depfile_text(const std::string& target, const std::vector<std::strin
   text += '\n';
   for (const std::string& input : inputs) text += fmt::format("\n{}:\n", escaped(input));
   return text;
+}
+
+Depfile::Depfile(const std::string& file, const std::string& text)
+    : final_name(file), staged_name(file + ".part") {
+  std::ofstream stream(staged_name, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (stream) return;
+  std::error_code unused;
+  std::filesystem::remove(staged_name, unused);
+  throw Error(ErrorKind::cannot_write, final_name, "the dependency file can't be written; check its folder");
+}
+
+void Depfile::commit() {
+  std::error_code fault;
+  std::filesystem::rename(staged_name, final_name, fault);
+  if (fault) throw Error(ErrorKind::cannot_write, final_name, fault.message());
+  staged_name.clear();
+}
+
+Depfile::~Depfile() {
+  std::error_code unused;
+  if (!staged_name.empty()) std::filesystem::remove(staged_name, unused);
 }
 
 } // namespace tilepack::cli

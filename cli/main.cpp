@@ -1,3 +1,4 @@
+#include "help_format.h"
 #include "interrupt.h"
 #include "verb.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -71,7 +73,7 @@ std::string explained(const CLI::App& app, const CLI::ParseError& error) {
 int run_verb(const Verb& verb, std::vector<std::string> arguments, Console& console) {
   CLI::App app(verb.summary + ".", "tilepack " + verb.name);
   app.footer("\nExample:\n" + verb.example);
-  app.get_formatter()->column_width(34);
+  app.formatter(std::make_shared<HelpFormat>());
   app.option_defaults()->take_last(); // scripts append to override; what collects says take_all itself
   app.add_flag("-q,--quiet", console.quiet, "no progress, notes and warnings");
   const Action action = verb.declare(app);

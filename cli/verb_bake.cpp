@@ -17,6 +17,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -81,16 +82,11 @@ BakeOptions options_from(const BakeArguments& arguments) {
   return bake_options(settings);
 }
 
-void write_depfile(const BakeArguments& arguments, const std::vector<MaterialFile>& files) {
+std::string dependencies(const BakeArguments& arguments, const std::vector<MaterialFile>& files) {
   std::vector<std::string> inputs;
   for (const MaterialFile& file : files) inputs.push_back(file.file);
   if (std::filesystem::is_regular_file(arguments.preset)) inputs.push_back(arguments.preset);
-  const std::string target = (std::filesystem::path(arguments.folder) / "pack.json").string();
-  std::ofstream stream(arguments.depfile, std::ios::binary);
-  stream << depfile_text(target, inputs);
-  stream.close();
-  if (!stream)
-    throw Error(ErrorKind::cannot_write, arguments.depfile, "the dependency file can't be written");
+  return depfile_text((std::filesystem::path(arguments.folder) / "pack.json").string(), inputs);
 }
 
 class Stopwatch {
@@ -125,8 +121,10 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   const double read_seconds = watch.lap();
   const Pack pack = bake(samples, options, progress);
   const double bake_seconds = watch.lap();
+  std::optional<Depfile> depfile;
+  if (!arguments.depfile.empty()) depfile.emplace(arguments.depfile, dependencies(arguments, files));
   write_pack(pack, arguments.folder, progress);
-  if (!arguments.depfile.empty()) write_depfile(arguments, files);
+  if (depfile) depfile->commit();
   const double write_seconds = watch.lap();
 
   const PackDescription made = described(pack);

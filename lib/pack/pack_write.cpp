@@ -96,6 +96,7 @@ Error named_as_final(const Error& error, const fs::path& staging, const fs::path
 
 void check_pack_folder(const fs::path& folder) {
   replaceable_files(folder);
+  const StagedFolder made_and_removed(folder); // is there permission, is it locked?
 }
 
 void write_pack(const Pack& pack, const fs::path& folder, const Progress& progress) {

@@ -16,7 +16,8 @@ namespace tilepack {
 /// the folder is as it was. Throws Error (cannot_write). The same pack gives the same bytes.
 void write_pack(const Pack& pack, const std::filesystem::path& folder, const Progress& progress = {});
 
-/// Throws what write_pack would throw about the folder itself, before any work is done for it.
+/// Throws what write_pack would throw about the folder itself, before any work is done for it: other files
+/// in it, a lock, a lack of permission. Leaves no trace.
 void check_pack_folder(const std::filesystem::path& folder);
 
 } // namespace tilepack

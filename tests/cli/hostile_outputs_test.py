@@ -27,6 +27,12 @@ class Outputs(CommandCase):
         self.refused("bake", sample, "-o", "sample.png/out", *SMALL, code=CANNOT_WRITE)
         self.refused("bake", sample, "-o", "/proc/out", *SMALL, code=CANNOT_WRITE)
 
+    def test_a_depfile_that_cannot_be_written(self):
+        sample = self.noise_png("sample.png")
+        self.refused("bake", sample, "-o", "out", *SMALL, "--depfile", "nowhere/out.d", code=CANNOT_WRITE,
+                     saying="nowhere/out.d")
+        self.refused("bake", "missing.png", "-o", "out", *SMALL, "--depfile", "out.d", code=2)
+
     def older_pack(self):
         self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", *SMALL)
 

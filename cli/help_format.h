@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace tilepack::cli {
+
+/// CLI11's help, with descriptions wrapped to 100 columns and flags shown by their names alone.
+class HelpFormat : public CLI::Formatter {
+public:
+  HelpFormat() { column_width(34); }
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override;
+  std::string make_option_desc(const CLI::Option* option) const override;
+};
+
+} // namespace tilepack::cli
