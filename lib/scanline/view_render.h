@@ -13,8 +13,9 @@ struct ViewOptions {
 /// A perspective view of a scene textured from a pack, in bands of rows, any rows in any order: the pixels
 /// are the same for any banding and any number of threads.
 ///
-/// Nothing in front of the camera, planes edge-on and triangles without area simply do not show; no pixel is
-/// NaN (where the pack's own texels are finite).
+/// A pixel shows the surface at its centre: silhouettes are not smoothed. Nothing in front of the camera,
+/// planes edge-on and triangles without area simply do not show; no pixel is NaN (where the pack's own texels
+/// are finite).
 class ViewRenderer {
 public:
   /// `pack` must outlive this. Throws Error (usage): a map the pack doesn't hold, a background of another

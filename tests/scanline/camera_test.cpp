@@ -36,7 +36,8 @@ TEST_CASE("the field of view is vertical, up is up, right is right") {
 }
 
 TEST_CASE("cameras that see nothing sensible are refused with the way out") {
-  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  constexpr double inf = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
   const Camera good{{0, 1, 0}, {0, 0, -5}};
   const Size size{16, 16};
   CHECK_NOTHROW(Projection(good, size));

@@ -107,6 +107,38 @@ TEST_CASE("every span method shows the ground where the exact one does, within i
   CHECK(difference(exact, wanted, {64, 64}).largest_pixels <= 0.05);
 }
 
+TEST_CASE("spans may run straight up a picture: a view turned by a quarter is the view, turned") {
+  const Camera upright{{0.3, 1.5, 0.2}, {0.5, 0.4, -4}, {0, 1, 0}, 60};
+  // What was up points left now: row y of the turned picture is column y of the upright one, from its foot.
+  const Vec3 aside = cross(upright.target - upright.eye, upright.up);
+  Camera turned = upright;
+  turned.up = aside;
+  const int side = 96;
+  for (SpanMethod method : {SpanMethod::exact, SpanMethod::newton_direct}) {
+    const auto a =
+        pixels_of(ground(), upright, {side, side}, stepping(SpanMethod::exact, SpanPrecision::f64));
+    const auto b = pixels_of(ground(), turned, {side, side}, stepping(method, SpanPrecision::f64));
+    int seen = 0;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const auto at_a = static_cast<std::size_t>(y * side + x);
+        const auto at_b = static_cast<std::size_t>((side - 1 - x) * side + y);
+        REQUIRE((a.span[at_a] >= 0) == (b.span[at_b] >= 0));
+        if (a.span[at_a] < 0) continue;
+        ++seen;
+        const ViewSpan& sa = a.spans[static_cast<std::size_t>(a.span[at_a])];
+        const ViewSpan& sb = b.spans[static_cast<std::size_t>(b.span[at_b])];
+        const double across = footprint(sb, b.step[at_b], b.u[at_b], b.v[at_b]).u_across;
+        const double along = footprint(sb, b.step[at_b], b.u[at_b], b.v[at_b]).v_across;
+        // A pixel's width at most, along the turned scanline.
+        const double limit = method == SpanMethod::exact ? 1e-7 : 1.1 * std::hypot(across, along) + 1e-7;
+        REQUIRE(std::abs(in_tiles(sa.span.u, a.u[at_a]) - in_tiles(sb.span.u, b.u[at_b])) < limit);
+        REQUIRE(std::abs(in_tiles(sa.span.v, a.v[at_a]) - in_tiles(sb.span.v, b.v[at_b])) < limit);
+      }
+    CHECK(seen > 3000);
+  }
+}
+
 TEST_CASE("two triangles show what their plane shows, cut by the near plane too") {
   // A quad of the ground, reaching behind the eye.
   Scene quad;
@@ -250,7 +282,8 @@ TEST_CASE("scenes that show nothing give an empty picture, hostile ones a finite
   };
   const Image nothing(32, 24, 3);
   CHECK(picture({}) == nothing);
-  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  constexpr double inf = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
   const auto plane = [](Vec3 origin, Vec3 u, Vec3 v) {
     Scene scene;
     scene.planes.push_back({origin, u, v});
