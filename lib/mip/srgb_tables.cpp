@@ -89,13 +89,34 @@ const EncodeTable& encode_table() {
   return table;
 }
 
-float encoded_value(float v, const EncodeTable& table) {
-  if (!(v >= table_begin && v < 1.0f)) return static_cast<float>(linear_to_srgb(static_cast<double>(v)));
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(v) - first_bits;
-  const Parabola& p = table[bits >> piece_bits];
-  const float t =
-      static_cast<float>(static_cast<int>(bits & ((1u << piece_bits) - 1))) * (1.0f / (1 << piece_bits));
-  return p.a + t * (p.b + t * p.c);
+// A block at a time, so that all but the look-ups runs in vector registers. Values off the table are rare in
+// pictures, and done exactly afterwards.
+constexpr std::size_t block = 256;
+
+void encode_block(float* values, std::size_t count, const EncodeTable& table) {
+  constexpr int first = static_cast<int>(first_bits);
+  constexpr int last = std::bit_cast<int>(1.0f) - 1;
+  constexpr int within = (1 << piece_bits) - 1;
+  std::array<int, block> piece;
+  std::array<float, block> t;
+  std::array<float, block> code;
+  int strays = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int bits = std::bit_cast<int>(values[i]);
+    const int kept = std::min(std::max(bits, first), last);
+    piece[i] = (kept - first) >> piece_bits;
+    t[i] = static_cast<float>((kept - first) & within) * (1.0f / (1 << piece_bits));
+    strays |= kept ^ bits;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Parabola& p = table[static_cast<std::size_t>(piece[i])];
+    code[i] = p.a + t[i] * (p.b + t[i] * p.c);
+  }
+  if (strays != 0)
+    for (std::size_t i = 0; i < count; ++i)
+      if (!(values[i] >= table_begin && values[i] < 1.0f))
+        code[i] = static_cast<float>(linear_to_srgb(static_cast<double>(values[i])));
+  std::copy_n(code.begin(), count, values);
 }
 
 } // namespace
@@ -118,14 +139,13 @@ Image halved_from_srgb(const Image& image) {
 void encode_srgb(Image& image) {
   const EncodeTable& table = encode_table();
   const auto channels = static_cast<std::size_t>(image.channels());
-  const std::size_t colors = channels % 2 == 0 ? channels - 1 : channels;
   auto& values = image.data();
-  if (colors == channels) {
-    for (float& v : values) v = encoded_value(v, table);
-    return;
-  }
-  for (std::size_t i = 0; i < values.size(); i += channels)
-    for (std::size_t c = 0; c < colors; ++c) values[i + c] = encoded_value(values[i + c], table);
+  std::vector<float> alpha;
+  if (channels % 2 == 0)
+    for (std::size_t i = channels - 1; i < values.size(); i += channels) alpha.push_back(values[i]);
+  for (std::size_t i = 0; i < values.size(); i += block)
+    encode_block(values.data() + i, std::min(block, values.size() - i), table);
+  for (std::size_t i = 0; i < alpha.size(); ++i) values[(i + 1) * channels - 1] = alpha[i];
 }
 
 } // namespace tilepack
