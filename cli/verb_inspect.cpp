@@ -26,6 +26,7 @@ struct InspectArguments {
   std::string pack;
   std::string format = "text";
   std::string picture;
+  std::string corner_picture;
   std::string preview;
   std::string map;
   std::optional<int> level;
@@ -86,6 +87,8 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   options.level = arguments.level;
   options.marks = !arguments.bare;
   if (!arguments.picture.empty()) write_drawing(arguments.picture, pack_picture(pack, options));
+  if (!arguments.corner_picture.empty())
+    write_drawing(arguments.corner_picture, corner_picture(pack, options));
   if (!arguments.preview.empty())
     write_drawing(arguments.preview, expansion_picture(pack, arguments.tiles, arguments.tiles, options));
   summary.seams = seam_figures(pack, options.map, 0, arguments.worst);
@@ -100,6 +103,8 @@ Action declare_inspect(CLI::App& app) {
       ->check(CLI::IsMember({"text", "json"}))
       ->type_name("text|json");
   app.add_option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
+      ->type_name("FILE.png|.svg");
+  app.add_option("--corner-picture", arguments->corner_picture, "draw the corner pack likewise")
       ->type_name("FILE.png|.svg");
   app.add_option("--preview", arguments->preview,
                  "draw a piece of the virtual texture with its colors and ids")

@@ -1,3 +1,5 @@
+#include "tilepack/layout/rotated_lattice.h"
+#include "tilepack/layout/surroundings.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/verify/structure_checks.h"
 #include "tilepack/verify/tile_border.h"
@@ -130,6 +132,35 @@ void check_neighbours(const Pack& pack, std::vector<Issue>& issues) {
     }
 }
 
+// Without gutters a filter reads on into the neighbours of a turned tile.
+void check_turned_neighbours(const Pack& pack, std::vector<Issue>& issues) {
+  if (pack.layout.rotated.gutter > 0) return;
+  const RotatedLattice lattice(pack.layout.rotated.scheme);
+  for (const Cell& cell : pack.layout.cells)
+    if (lattice.site_with(cell.column, cell.row) < 0) {
+      issues.push_back({Rule::cell_outside, fmt::format("layout, tile {}", cell.tile),
+                        fmt::format("column {}, row {}", cell.column, cell.row),
+                        fmt::format("a place of the scheme {}", formula(pack.layout.rotated.scheme))});
+      return;
+    }
+  if (lattice.sites() != static_cast<int>(pack.layout.cells.size())) return;
+  const std::vector<Surroundings> around = packed_surroundings(pack.layout);
+  const auto compare = [&](int tile, Side side, int neighbour, Side facing) {
+    if (border_key(pack.tiles, pack.colors, tile, side) ==
+        border_key(pack.tiles, pack.colors, neighbour, facing))
+      return;
+    issues.push_back({Rule::border_colors,
+                      fmt::format("layout, tile {} and its {} neighbour", tile, name_of(side)),
+                      fmt::format("tile {} {} beside tile {} {}", tile, border_text(pack.tiles, tile, side),
+                                  neighbour, border_text(pack.tiles, neighbour, facing)),
+                      "the same color on both sides, or a gutter"});
+  };
+  for (int tile = 0; tile < static_cast<int>(around.size()); ++tile) {
+    compare(tile, Side::east, around[static_cast<std::size_t>(tile)].e, Side::west);
+    compare(tile, Side::south, around[static_cast<std::size_t>(tile)].s, Side::north);
+  }
+}
+
 // [Wei04, Eq. 7]: a sampler may compute the cell from the colors and never look at the layout's list.
 void check_formula(const Pack& pack, std::vector<Issue>& issues) {
   const auto* edges = std::get_if<std::vector<EdgeTile>>(&pack.tiles);
@@ -192,6 +223,7 @@ std::vector<Issue> check_layout(const Pack& pack) {
   check_cells(pack, issues);
   if (pack.layout.kind == LayoutKind::tile_index || pack.layout.kind == LayoutKind::de_bruijn)
     check_neighbours(pack, issues);
+  if (pack.layout.kind == LayoutKind::rotated && issues.empty()) check_turned_neighbours(pack, issues);
   check_formula(pack, issues);
   return issues;
 }

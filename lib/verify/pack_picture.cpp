@@ -1,6 +1,7 @@
 #include "tilepack/verify/pack_picture.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/layout/corner_grid.h"
 #include "tilepack/sampler/virtual_texture.h"
 
 #include <fmt/format.h>
@@ -74,7 +75,8 @@ const PackedMap& map_of(const Pack& pack, const PackPictureOptions& options) {
               fmt::format("{} is not 0 to {}, the maps of the pack", options.map, pack.maps.size() - 1));
 }
 
-int level_of(const PackedMap& map, const Size& tile, int columns, int rows,
+// The finest level whose picture keeps within max_side, where level 0 would have this size.
+int level_of(const PackedMap& map, std::int64_t width, std::int64_t height,
              const PackPictureOptions& options) {
   const int levels = static_cast<int>(map.levels.size());
   if (options.level) {
@@ -83,10 +85,7 @@ int level_of(const PackedMap& map, const Size& tile, int columns, int rows,
                 fmt::format("{} is not 0 to {}, the levels of map {}", *options.level, levels - 1, map.name));
   }
   int level = 0;
-  while (level + 1 < levels &&
-         std::max(columns * static_cast<std::int64_t>(level_size(tile, level).width),
-                  rows * static_cast<std::int64_t>(level_size(tile, level).height)) > options.max_side)
-    ++level;
+  while (level + 1 < levels && (std::max(width, height) >> level) > options.max_side) ++level;
   return level;
 }
 
@@ -108,6 +107,35 @@ TileFrame frame_of_cell(int column, int row, Size tile) {
   return {{static_cast<double>(column) * tile.width, static_cast<double>(row) * tile.height},
           {static_cast<double>(tile.width), 0},
           {0, static_cast<double>(tile.height)}};
+}
+
+TileFrame frame_of(const Placement& place, int factor) {
+  return {{place.origin.x * factor, place.origin.y * factor},
+          {place.east.x * factor, place.east.y * factor},
+          {place.south.x * factor, place.south.y * factor}};
+}
+
+// A turned tile goes on beyond the texture's borders, where it enters again on the other side.
+void draw_wrapped(Drawing& drawing, const TileColors& tiles, int tile, const TileFrame& frame) {
+  const double width = drawing.background.width();
+  const double height = drawing.background.height();
+  const double left = std::min({0.0, frame.along.x, frame.down.x, frame.along.x + frame.down.x});
+  const double right = std::max({0.0, frame.along.x, frame.down.x, frame.along.x + frame.down.x});
+  const double top = std::min({0.0, frame.along.y, frame.down.y, frame.along.y + frame.down.y});
+  const double bottom = std::max({0.0, frame.along.y, frame.down.y, frame.along.y + frame.down.y});
+  for (int down = -2; down <= 2; ++down)
+    for (int across = -2; across <= 2; ++across) {
+      const DrawingPoint corner{frame.corner.x + across * width, frame.corner.y + down * height};
+      const bool seen =
+          corner.x + left < width && corner.x + right > 0 && corner.y + top < height && corner.y + bottom > 0;
+      if (seen) draw_marks(drawing, tiles, tile, {corner, frame.along, frame.down});
+    }
+}
+
+Drawing background_of(const PackedMap& map, int level, int factor) {
+  return {magnified(viewable(map.levels[static_cast<std::size_t>(level)], map.role, map.encoding), factor),
+          {},
+          {}};
 }
 
 } // namespace
@@ -189,23 +217,46 @@ Image viewable(const Image& image, Role role, Encoding encoding) {
 
 Drawing pack_picture(const Pack& pack, const PackPictureOptions& options) {
   const PackedMap& map = map_of(pack, options);
-  const int level = level_of(map, pack.tile_size, pack.layout.columns, pack.layout.rows, options);
+  const Size whole = texture_size(pack.layout, pack.tile_size, 0);
+  const int level = level_of(map, whole.width, whole.height, options);
+  const int factor = magnification(level_size(pack.tile_size, level), options.min_tile_side);
+  Drawing drawing = background_of(map, level, factor);
+  if (!options.marks) return drawing;
+  for (const Cell& cell : pack.layout.cells) {
+    const TileFrame frame = frame_of(placement(pack.layout, cell.tile, pack.tile_size, level), factor);
+    if (pack.layout.kind == LayoutKind::rotated)
+      draw_wrapped(drawing, pack.tiles, cell.tile, frame);
+    else
+      draw_marks(drawing, pack.tiles, cell.tile, frame);
+  }
+  return drawing;
+}
+
+Drawing corner_picture(const Pack& pack, const PackPictureOptions& options) {
+  map_of(pack, options);
+  if (!pack.corner_pack)
+    throw Error(ErrorKind::usage, "corner pack", "the pack has none; bake it with --corner-pack");
+  const CornerPack& corners = *pack.corner_pack;
+  const PackedMap& map = corners.maps[static_cast<std::size_t>(options.map)];
+  const int level = level_of(map, std::int64_t{corners.columns} * pack.tile_size.width,
+                             std::int64_t{corners.rows} * pack.tile_size.height, options);
   Size tile = level_size(pack.tile_size, level);
   const int factor = magnification(tile, options.min_tile_side);
-  Drawing drawing{
-      magnified(viewable(map.levels[static_cast<std::size_t>(level)], map.role, map.encoding), factor),
-      {},
-      {}};
+  Drawing drawing = background_of(map, level, factor);
   if (!options.marks) return drawing;
   tile = {tile.width * factor, tile.height * factor};
-  for (const Cell& cell : pack.layout.cells)
-    draw_marks(drawing, pack.tiles, cell.tile, frame_of_cell(cell.column, cell.row, tile));
+  const CornerGrid grid = corner_grid(pack.colors.horizontal, pack.colors.vertical);
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column)
+      draw_marks(drawing, pack.tiles, grid.tiles[static_cast<std::size_t>(row * grid.columns + column)],
+                 frame_of_cell(column, row, tile));
   return drawing;
 }
 
 Drawing expansion_picture(const Pack& pack, int columns, int rows, const PackPictureOptions& options) {
   const PackedMap& map = map_of(pack, options);
-  const int level = level_of(map, pack.tile_size, columns, rows, options);
+  const int level = level_of(map, std::int64_t{columns} * pack.tile_size.width,
+                             std::int64_t{rows} * pack.tile_size.height, options);
   Size tile = level_size(pack.tile_size, level);
   const int factor = magnification(tile, options.min_tile_side);
   const Image texture =

@@ -19,8 +19,13 @@ struct PackPictureOptions {
   int max_side = 4096;    ///< of the picture, for the choice of the level
 };
 
-/// The packed texture. Throws Error (usage) if the map or level does not exist.
+/// The packed texture, whatever its layout; turned tiles are drawn again where they wrap. Throws Error
+/// (usage) if the map or level does not exist.
 Drawing pack_picture(const Pack& pack, const PackPictureOptions& options);
+
+/// The corner pack: each cell shows the tile whose south-east corner stands for a lattice point. Throws Error
+/// (usage) if the pack has none.
+Drawing corner_picture(const Pack& pack, const PackPictureOptions& options);
 
 /// `columns` x `rows` tiles of the virtual texture from cell (0, 0) on.
 Drawing expansion_picture(const Pack& pack, int columns, int rows, const PackPictureOptions& options);

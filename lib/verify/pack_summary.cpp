@@ -73,9 +73,20 @@ bool edge_colored(const Pack& pack) {
   return coloring_of(pack.tiles) == Coloring::edge;
 }
 
+std::string layout_text(const Layout& layout) {
+  const RotatedGrid& rotated = layout.rotated;
+  if (layout.kind == LayoutKind::rotated)
+    return fmt::format("rotated, {} turned by {:.3f} degrees, gutter {},", formula(rotated.scheme),
+                       angle_in_degrees(rotated.scheme), rotated.gutter);
+  if (layout.kind == LayoutKind::array)
+    return fmt::format("array, {} layers, border {},", layout.rows, layout.border);
+  return fmt::format("{}, {} x {} cells", name_of(layout.kind), layout.columns, layout.rows);
+}
+
 // The grid as it lies in the texture: id and colors a cell.
 std::string grid_text(const Pack& pack) {
   const Layout& layout = pack.layout;
+  if (layout.kind == LayoutKind::rotated) return "";
   std::string text = fmt::format("          cells: tile id, colors {}\n",
                                  edge_colored(pack) ? "north east south west" : "nw ne sw se");
   if (layout.columns > widest_table || layout.rows > 4 * widest_table)
@@ -219,9 +230,9 @@ std::string summary_text(const PackSummary& summary) {
                                                 : fmt::format("{} corner colors", pack.colors.corner);
   std::string text = fmt::format("{}\ntiles     {} of {} x {} texels, {}\n", summary.subject,
                                  tile_count(pack.tiles), tile.width, tile.height, colors);
-  text += fmt::format("layout    {}, {} x {} cells = {} x {} texels\n", name_of(pack.layout.kind),
-                      pack.layout.columns, pack.layout.rows, pack.layout.columns * tile.width,
-                      pack.layout.rows * tile.height);
+  const Size texture = texture_size(pack.layout, tile, 0);
+  text +=
+      fmt::format("layout    {} = {} x {} texels\n", layout_text(pack.layout), texture.width, texture.height);
   text += grid_text(pack);
   text += "maps\n" + maps_text(summary, pack.maps, description.map_files);
   if (pack.corner_pack) {

@@ -1,6 +1,6 @@
 #include "tilepack/verify/seams.h"
 
-#include "tilepack/layout/layout.h"
+#include "tilepack/layout/place_tiles.h"
 
 #include <tbb/parallel_for.h>
 
@@ -91,7 +91,7 @@ struct Found {
 
 SeamFigures seam_figures(const Pack& pack, int map, int level, int list) {
   const Image& image = pack.maps[static_cast<std::size_t>(map)].levels[static_cast<std::size_t>(level)];
-  const std::vector<Image> tiles = tiles_of(image, pack.layout);
+  const std::vector<Image> tiles = tiles_at_level(image, pack.layout, pack.tile_size, level);
   const auto channels = static_cast<std::size_t>(image.channels());
   const auto kept = static_cast<std::size_t>(std::max(0, list));
   SeamFigures figures;
