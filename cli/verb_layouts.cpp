@@ -1,10 +1,12 @@
 #include "verb.h"
 
-#include "tilepack/layout/layout_planner.h"
+#include "tilepack/image/image_file.h"
+#include "tilepack/pack/packing.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,6 +23,7 @@ struct LayoutsArguments {
   int gutter = 0;
   bool power_of_two = false;
   std::string format = "text";
+  std::string sample; ///< advice: measure the loss on it
 };
 
 PlanRequest request_for(int tiles, const LayoutsArguments& arguments) {
@@ -62,9 +65,26 @@ Json plan_json(const LayoutPlan& plan) {
           {"wasted_percent", share(plan.wasted, texels)}};
 }
 
+// Peak signal to noise of a round trip, in decibels; nothing lost is shown as 999.
+double decibels(double rms) {
+  return rms > 0 ? -20.0 * std::log10(rms) : 999.0;
+}
+
+std::vector<RoundTrip> losses(const LayoutPlan& plan, const LayoutsArguments& arguments) {
+  if (arguments.sample.empty()) return {};
+  ImageFile file = read_image(arguments.sample);
+  const SampleMap sample{arguments.sample, Role::color, file.encoding, file.depth, std::move(file.image)};
+  return round_trips(sample, plan, arguments.tile_side);
+}
+
 Json row_json(int tiles, const LayoutsArguments& arguments) {
   Json plans = Json::array();
-  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments))) plans.push_back(plan_json(plan));
+  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments))) {
+    Json json = plan_json(plan);
+    for (const RoundTrip& trip : losses(plan, arguments))
+      json["psnr"][std::string(name_of(trip.filter))] = decibels(trip.rms);
+    plans.push_back(std::move(json));
+  }
   return {{"tiles", tiles},
           {"plans", std::move(plans)},
           {"padded_texels", padded_texels(tiles, arguments.tile_side)},
@@ -95,9 +115,13 @@ std::string advice_text(int tiles, const LayoutsArguments& arguments) {
   std::string text =
       fmt::format("{0} tiles of {1} x {1} texels, best first:\n\n", tiles, arguments.tile_side);
   int place = 1;
-  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments)))
+  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments))) {
     text += fmt::format("  {}  {}  --layout rotated --scheme {},{}{}\n", place++, plan_text(plan),
                         plan.scheme.n, plan.scheme.k, plan.scheme.squares == 2 ? ",2" : "");
+    for (const RoundTrip& trip : losses(plan, arguments))
+      text += fmt::format("       stored and read back, {}: {:.1f} dB\n", name_of(trip.filter),
+                          decibels(trip.rms));
+  }
   text += fmt::format("\nPadded to powers of two they would leave {:.2f} % of the texture empty.\n"
                       "The nearest other counts without waste are {} and {}.\n",
                       padding(tiles, arguments.tile_side), tiles > 1 ? reachable_counts(tiles - 1).below : 0,
@@ -106,6 +130,8 @@ std::string advice_text(int tiles, const LayoutsArguments& arguments) {
 }
 
 int run_layouts(const LayoutsArguments& arguments, Console& console) {
+  if (!arguments.sample.empty() && !arguments.tiles)
+    throw Error(ErrorKind::usage, "--sample", "goes with --tiles: name the count that is to be measured");
   const bool json = arguments.format == "json";
   if (arguments.tiles) {
     console.print(json ? row_json(*arguments.tiles, arguments).dump(2) + "\n"
@@ -138,6 +164,9 @@ Action declare_layouts(CLI::App& app) {
       ->type_name("N");
   app.add_option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side")
       ->type_name("N");
+  app.add_option("--sample", arguments->sample,
+                 "with --tiles: measure what turning loses on windows of this image")
+      ->type_name("IMAGE");
   app.add_flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
   app.add_option("--format", arguments->format, "of the table")
       ->check(CLI::IsMember({"text", "json"}))
@@ -150,7 +179,8 @@ Action declare_layouts(CLI::App& app) {
 Verb layouts_verb() {
   return {"layouts", "list which tile counts pack without waste, and how",
           "  tilepack layouts --up-to 50 --tile-size 64\n"
-          "  tilepack layouts --tiles 18\n",
+          "  tilepack layouts --tiles 18\n"
+          "  tilepack layouts --tiles 13 --sample gravel.png\n",
           declare_layouts};
 }
 

@@ -94,7 +94,7 @@ Layout de_bruijn_layout(const std::vector<CornerTile>& complete_set) {
         throw Error(
             ErrorKind::invalid_content, "layout de-bruijn",
             fmt::format("no tile has nw {}, ne {}, sw {}, se {}; this layout needs all {} combinations "
-                        "of {} corner colors",
+                        "of {} corner colors; rotated and array do with fewer",
                         tile.nw, tile.ne, tile.sw, tile.se, given.size(), colors));
       layout.cells[static_cast<std::size_t>(id)] = {id, column, row};
     }

@@ -74,11 +74,12 @@ Layout tile_index_layout(const std::vector<EdgeTile>& complete_set) {
     const int place = static_cast<int>(gap - taken.begin());
     const ColorPair across = color_pair_at(layout.columns > 0 ? place % layout.columns : 0);
     const ColorPair down = color_pair_at(layout.columns > 0 ? place / layout.columns : 0);
-    throw Error(ErrorKind::invalid_content, "layout tile-index",
-                fmt::format("no tile has north {}, east {}, south {}, west {}; this layout needs all {} "
-                            "combinations of {} horizontal and {} vertical colors",
-                            down.first, across.second, down.second, across.first, taken.size(), horizontal,
-                            vertical));
+    throw Error(
+        ErrorKind::invalid_content, "layout tile-index",
+        fmt::format("no tile has north {}, east {}, south {}, west {}; this layout needs all {} "
+                    "combinations of {} horizontal and {} vertical colors; rotated and array do with fewer",
+                    down.first, across.second, down.second, across.first, taken.size(), horizontal,
+                    vertical));
   }
   return layout;
 }

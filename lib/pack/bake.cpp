@@ -32,6 +32,8 @@ void check_choice(const BakeOptions& o) {
   if (o.set == TileChoice::sequential && o.synth.coloring == Coloring::corner)
     throw Error(ErrorKind::usage, "--set",
                 "'sequential' is for edge coloring; corner-colored sets are complete");
+  if (o.set == TileChoice::sequential && o.layout == LayoutKind::tile_index)
+    throw Error(ErrorKind::usage, "--layout", "'tile-index' needs the complete set; use rotated or array");
 }
 
 void check_samples(std::span<const SampleMap> samples) {

@@ -6,6 +6,7 @@
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/index_fill.h"
+#include "tilepack/tileset/random.h"
 
 #include <fmt/format.h>
 
@@ -28,11 +29,10 @@ void check_layout_fits(const PackingOptions& o, const TileColors& tiles) {
                 fmt::format("'{}' is for {} coloring; use {}, rotated or array with {} coloring",
                             name_of(o.layout), corner ? "edge" : "corner",
                             corner ? "de-bruijn" : "tile-index", corner ? "corner" : "edge"));
+  // These name the combination that is missing or there twice.
+  if (o.layout == LayoutKind::tile_index) tile_index_layout(std::get<std::vector<EdgeTile>>(tiles));
+  if (o.layout == LayoutKind::de_bruijn) de_bruijn_layout(std::get<std::vector<CornerTile>>(tiles));
   if (is_complete_set(tiles)) return;
-  if (o.layout == LayoutKind::tile_index || o.layout == LayoutKind::de_bruijn)
-    throw Error(ErrorKind::usage, "--layout",
-                fmt::format("'{}' needs the complete set; use rotated or array for these {} tiles",
-                            name_of(o.layout), tile_count(tiles)));
   if (o.mapping != MappingKind::index)
     throw Error(
         ErrorKind::usage, "--mapping",
@@ -193,14 +193,31 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
   return pack;
 }
 
-std::vector<RoundTrip> round_trips(const TileSet& set, const Layout& layout) {
+std::vector<RoundTrip> round_trips(const SampleMap& sample, const LayoutPlan& plan, int tile_side) {
+  const Size room{sample.image.width() - tile_side, sample.image.height() - tile_side};
+  if (room.width < 0 || room.height < 0)
+    throw Error(ErrorKind::invalid_content, sample.name,
+                fmt::format("{} x {} texels hold no tile of {}", sample.image.width(), sample.image.height(),
+                            tile_side));
+  TileMap map{sample.name, sample.role, sample.encoding, sample.depth, {}};
+  const int tiles = tile_count(plan.scheme);
+  for (int tile = 0; tile < tiles; ++tile) {
+    const auto place = [&](const char* axis, int free) {
+      return static_cast<int>(
+          random_below(0, axis, static_cast<std::uint64_t>(tile), static_cast<std::uint32_t>(free + 1)));
+    };
+    map.tiles.push_back(crop(
+        sample.image, {place("window x", room.width), place("window y", room.height), tile_side, tile_side}));
+  }
+  const Size tile_size{tile_side, tile_side};
+  const Layout layout = planned_layout(plan, tile_side);
+  const TileColors colors = std::vector<EdgeTile>(static_cast<std::size_t>(tiles));
   std::vector<RoundTrip> results;
-  const TileMap& map = set.maps.front();
   for (const ResampleFilter filter :
        {ResampleFilter::bilinear, ResampleFilter::bicubic, ResampleFilter::lanczos}) {
     const Image texture =
-        quantised(place_tiles(map, set.tiles, layout, set.tile_size, 0, {filter, {}}), map.depth);
-    const std::vector<Image> back = tiles_at_level(texture, layout, set.tile_size, 0);
+        quantised(place_tiles(map, colors, layout, tile_size, 0, {filter, Outside::own}), map.depth);
+    const std::vector<Image> back = tiles_at_level(texture, layout, tile_size, 0);
     double sum = 0;
     double count = 0;
     for (std::size_t id = 0; id < back.size(); ++id)

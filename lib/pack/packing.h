@@ -31,7 +31,8 @@ struct PackingOptions {
 };
 
 /// Refuses what can't be packed before any long work: options that contradict each other, the coloring or the
-/// set, and textures beyond most_texels_a_level. Error (usage); names the option and the way out.
+/// set, and textures beyond most_texels_a_level. Error (usage); names the option and the way out. A set that
+/// misses or repeats a tile of a layout for complete sets is Error (invalid_content).
 void check_packing(const PackingOptions& options, const TileColors& tiles, Size tile_size);
 
 /// Layout → mips → mapping → pack, in memory. `generator` is left to the caller. Throws as check_packing and
@@ -42,8 +43,11 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
 /// What storing tiles turned costs: the error of level 0, read back as tiles_at_level does, for each filter.
 struct RoundTrip {
   ResampleFilter filter = ResampleFilter::lanczos;
-  double rms = 0; ///< over all tiles and channels of the first map, of stored values; full scale is 1
+  double rms = 0; ///< over all tiles and channels, of stored values; full scale is 1
 };
-std::vector<RoundTrip> round_trips(const TileSet& set, const Layout& layout);
+
+/// Measured on windows of `sample` spread over it, as many as the plan has tiles, nothing read beyond a
+/// window. Throws Error (invalid_content) if the sample is smaller than a tile.
+std::vector<RoundTrip> round_trips(const SampleMap& sample, const LayoutPlan& plan, int tile_side);
 
 } // namespace tilepack

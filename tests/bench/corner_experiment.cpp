@@ -27,7 +27,8 @@ namespace {
 constexpr int cells = 12;
 constexpr int side = 32;
 
-// Grey tiles; round each corner a quarter disc whose color belongs to the two edges that meet there.
+// Grey tiles, each with a disc of its own color in the middle, and round each corner a quarter disc whose
+// color belongs to the two edges that meet there.
 TileSet tiles_with_corner_features() {
   TileSet set{{side, side}, {2, 2, 0}, complete_edge_set(2, 2), {}, 1};
   TileMap map{"color", Role::color, Encoding::linear, Depth::f32, {}};
@@ -40,12 +41,14 @@ TileSet tiles_with_corner_features() {
         const int corner = (x >= side / 2 ? 1 : 0) + (y >= side / 2 ? 2 : 0);
         const double dx = std::min(x + 0.5, side - x - 0.5);
         const double dy = std::min(y + 0.5, side - y - 0.5);
-        if (dx * dx + dy * dy > 36) continue;
+        const double from_middle = std::hypot(x + 0.5 - side / 2, y + 0.5 - side / 2);
+        const bool middle = from_middle < 8;
+        if (dx * dx + dy * dy > 36 && !middle) continue;
+        const int feature = middle ? 100 + static_cast<int>(map.tiles.size()) : corner * 4 + pairs[corner];
         for (std::size_t c = 0; c < 3; ++c)
-          image.texel(x, y)[c] =
-              static_cast<float>(random_below(
-                  11, "feature", static_cast<std::uint64_t>(corner * 4 + pairs[corner]) * 3 + c, 256)) /
-              255.0f;
+          image.texel(x, y)[c] = static_cast<float>(random_below(
+                                     11, "feature", static_cast<std::uint64_t>(feature) * 3 + c, 256)) /
+                                 255.0f;
       }
     map.tiles.push_back(image);
   }
