@@ -116,11 +116,13 @@ void print_row(int colors, const std::string& name, const TileSet& set, const Pa
              texels_stored(pack), errors.interior, errors.edge, errors.corner);
 }
 
-TileSet synthesized(const SampleMap& sample, Coloring coloring, int colors, int tile_side) {
+TileSet synthesized(const SampleMap& sample, Coloring coloring, Interior interior, int colors,
+                    int tile_side) {
   SynthOptions options;
   options.tile_size = {tile_side, tile_side};
   options.coloring = coloring;
   options.colors = coloring == Coloring::edge ? ColorCounts{colors, colors, 0} : ColorCounts{0, 0, colors};
+  options.interior = interior;
   options.effort = 1;
   options.seed = 1;
   return assembled(synthesize(std::span(&sample, 1), options), std::span(&sample, 1));
@@ -143,18 +145,21 @@ int main(int argc, char** argv) {
       PackingOptions options;
       options.virtual_size = {cells, cells};
       options.mapping = MappingKind::mix;
-      const TileSet edges = synthesized(sample, Coloring::edge, colors, side);
-      print_row(colors, "tile-index", edges, options);
+      // Quilted tiles leave their corners free; those with an inside of their own share one corner patch.
+      const TileSet quilted = synthesized(sample, Coloring::edge, Interior::quilt, colors, side);
+      const TileSet edges = synthesized(sample, Coloring::edge, Interior::patch, colors, side);
+      print_row(colors, "tile-index, quilted", quilted, options);
       options.corner_pack = true;
-      print_row(colors, "tile-index and corner pack", edges, options);
+      print_row(colors, "tile-index, quilted, and corner pack", quilted, options);
       options.corner_pack = false;
+      print_row(colors, "tile-index, one corner patch", edges, options);
       options.layout = LayoutKind::array;
       options.border = 1;
-      print_row(colors, "array, border 1", edges, options);
+      print_row(colors, "array, quilted, border 1", quilted, options);
       options.border = 0;
       options.layout = LayoutKind::de_bruijn;
-      print_row(colors, "de-bruijn, corner colors", synthesized(sample, Coloring::corner, colors, side),
-                options);
+      print_row(colors, "de-bruijn, corner colors",
+                synthesized(sample, Coloring::corner, Interior::patch, colors, side), options);
       options.layout = LayoutKind::rotated;
       options.mapping = MappingKind::index;
       const TileSet few = subset(edges, sequential_edge_set(colors, colors));
