@@ -65,7 +65,7 @@ Json plan_json(const LayoutPlan& plan) {
           {"wasted_percent", share(plan.wasted, texels)}};
 }
 
-// Peak signal to noise of a round trip, in decibels; nothing lost is shown as 999.
+// Peak signal to noise of a round trip, in decibels; in JSON, nothing lost is 999.
 double decibels(double rms) {
   return rms > 0 ? -20.0 * std::log10(rms) : 999.0;
 }
@@ -119,8 +119,9 @@ std::string advice_text(int tiles, const LayoutsArguments& arguments) {
     text += fmt::format("  {}  {}  --layout rotated --scheme {},{}{}\n", place++, plan_text(plan),
                         plan.scheme.n, plan.scheme.k, plan.scheme.squares == 2 ? ",2" : "");
     for (const RoundTrip& trip : losses(plan, arguments))
-      text += fmt::format("       stored and read back, {}: {:.1f} dB\n", name_of(trip.filter),
-                          decibels(trip.rms));
+      text += trip.rms > 0 ? fmt::format("       stored and read back, {}: {:.1f} dB\n", name_of(trip.filter),
+                                         decibels(trip.rms))
+                           : fmt::format("       stored and read back, {}: exact\n", name_of(trip.filter));
   }
   text += fmt::format("\nPadded to powers of two they would leave {:.2f} % of the texture empty.\n"
                       "The nearest other counts without waste are {} and {}.\n",
