@@ -46,6 +46,12 @@ public:
         continue;
       apart.push_back({at, static_cast<double>(map.values[order[i]]) / depth + unevenness(at, space)});
     }
+    // A border busier or calmer than the sample shows as a line.
+    const double usual = std::max(mean_step(space.direction), 1e-3);
+    for (Candidate& c : apart) {
+      const double excess = step_across(c.place, space) / usual - 1.0;
+      c.misfit *= 1.0 + options.calmness * excess * excess;
+    }
     std::stable_sort(apart.begin(), apart.end(),
                      [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
     if (apart.size() > static_cast<std::size_t>(options.candidates))
@@ -64,6 +70,28 @@ private:
     for (const std::int64_t s : sums)
       means.push_back(static_cast<double>(s) / (static_cast<double>(width) * height));
     return means;
+  }
+
+  // The mean step between neighbours across the middle of a strip, which tiles will show at their borders.
+  double step_across(SourceTexel at, const StripSpace& space) const {
+    std::int64_t total = 0;
+    for (int along = 0; along < space.length; ++along) {
+      const SourceTexel before = sum(at, space.at(along, space.reach - 1));
+      const SourceTexel after = sum(at, space.at(along, space.reach));
+      for (int c = 0; c < image.channels; ++c)
+        total += std::abs(image.texel(before.x, before.y)[c] - image.texel(after.x, after.y)[c]);
+    }
+    return static_cast<double>(total) / space.length;
+  }
+
+  double mean_step(Direction direction) const {
+    const int dx = direction == Direction::vertical ? 1 : 0;
+    std::int64_t total = 0;
+    for (int y = 0; y < image.height - 1; ++y)
+      for (int x = 0; x < image.width - 1; ++x)
+        for (int c = 0; c < image.channels; ++c)
+          total += std::abs(image.texel(x, y)[c] - image.texel(x + dx, y + 1 - dx)[c]);
+    return static_cast<double>(total) / (static_cast<double>(image.width) * image.height);
   }
 
   double unevenness(SourceTexel at, const StripSpace& space) const {

@@ -15,6 +15,7 @@ struct FrameSearchOptions {
   int candidates = 12;   ///< places considered for each strip
   int rounds = 3;        ///< passes over all strips
   double evenness = 2;   ///< weight of a strip's deviation from the sample's mean color
+  double calmness = 4;   ///< weight of a strip's step across its edge being other than usual
   double likeness = 300; ///< weight of the distance between all strips together and the sample's statistics
 };
 

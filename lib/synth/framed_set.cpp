@@ -29,10 +29,60 @@ std::vector<FeatureImage> pyramid_down_to(const FeatureImage& image, Size tile, 
   return levels;
 }
 
-std::vector<std::uint8_t> guard_texels(const FrameShape& shape) {
+// Texels beyond its borders that are kept beside a tile while it is mended: what its strips show there, which
+// is what any neighbour shows unless its own cut runs closer. Without them a seam would drift to the border,
+// where nothing would tell how it looks from the other side.
+int margin_of(const FrameShape& shape) {
+  return std::min(4, shape.reach);
+}
+
+SourceCanvas with_margin(const FrameShape& shape, const FramePlan& plan, const Frame& frame, std::size_t id,
+                         const SourceCanvas& tile) {
+  const int m = margin_of(shape);
+  const auto [w, h] = shape.tile;
+  const FrameShape::Tile& t = shape.tiles[id];
+  const auto north = static_cast<std::size_t>(t.north);
+  const auto south = static_cast<std::size_t>(t.south);
+  SourceCanvas canvas(w + 2 * m, h + 2 * m);
+  for (int j = 0; j < canvas.height; ++j)
+    for (int i = 0; i < canvas.width; ++i) {
+      const int x = i - m;
+      const int y = j - m;
+      const bool beside = x < 0 || x >= w;
+      SourceTexel& texel = canvas.at(i, j);
+      if (beside && (y < 0 || y >= h)) {
+        const FrameShape::Strip& strip = shape.horizontal[y < 0 ? north : south];
+        const SourceTexel corner = plan.corners[static_cast<std::size_t>(x < 0 ? strip.first : strip.second)];
+        texel = {corner.x + (x < 0 ? x : x - w), corner.y + (y < 0 ? y : y - h)};
+      } else if (y < 0) {
+        texel = frame.horizontal[north].at(x, shape.reach + y);
+      } else if (y >= h) {
+        texel = frame.horizontal[south].at(x, shape.reach + y - h);
+      } else if (x < 0) {
+        texel = frame.vertical[static_cast<std::size_t>(t.west)].at(shape.reach + x, y);
+      } else if (x >= w) {
+        texel = frame.vertical[static_cast<std::size_t>(t.east)].at(shape.reach + x - w, y);
+      } else {
+        texel = tile.at(x, y);
+      }
+    }
+  return canvas;
+}
+
+SourceCanvas without_margin(const FrameShape& shape, const SourceCanvas& canvas) {
+  const int m = margin_of(shape);
+  SourceCanvas tile(shape.tile.width, shape.tile.height);
+  for (int y = 0; y < tile.height; ++y)
+    for (int x = 0; x < tile.width; ++x) tile.at(x, y) = canvas.at(x + m, y + m);
+  return tile;
+}
+
+// Of a tile with its margin.
+std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
+  const int m = margin_of(shape);
   std::vector<std::uint8_t> fixed;
-  for (int y = 0; y < shape.tile.height; ++y)
-    for (int x = 0; x < shape.tile.width; ++x) fixed.push_back(in_guard(shape, x, y));
+  for (int y = -m; y < shape.tile.height + m; ++y)
+    for (int x = -m; x < shape.tile.width + m; ++x) fixed.push_back(in_guard(shape, x, y));
   return fixed;
 }
 
@@ -69,11 +119,11 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0},
                                              {1, 8, 0, 0, 0, 1},
                                              {2, 8, 0, 4, 1, 1},
-                                             {2, 12, 400, 6, 1, 2},
-                                             {4, 12, 600, 8, 2, 2},
-                                             {4, 12, 800, 12, 2, 3},
-                                             {8, 16, 1000, 16, 2, 3},
-                                             {16, 20, 1500, 24, 2, 4},
+                                             {2, 12, 0, 6, 1, 2},
+                                             {4, 12, 0, 8, 2, 2},
+                                             {6, 12, 0, 12, 2, 3},
+                                             {8, 16, 0, 16, 2, 3},
+                                             {16, 20, 2500, 24, 2, 4},
                                              {24, 24, 2500, 32, 3, 5},
                                              {48, 32, 2500, 48, 4, 6}}};
   const Row& row = rows[static_cast<std::size_t>(effort)];
@@ -107,12 +157,14 @@ SourceMap framed_set(const FeatureImage& image, const SynthOptions& options,
   join_interiors(image, shape, interiors, settings.interiors.bias, tiles);
 
   report(progress, "mending", 0.0);
-  const auto fixed = guard_texels(shape);
+  const auto fixed = fixed_texels(shape);
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
-    mend_spots(pyramid, search, fixed, settings.mend, tiles[id]);
+    SourceCanvas canvas = with_margin(shape, plan, frame, id, tiles[id]);
+    mend_spots(pyramid, search, fixed, settings.mend, canvas);
     PolishOptions own = settings.polish;
     own.seed = random_bits(settings.polish.seed, "polish tile", id);
-    polish(image, fixed, own, tiles[id]);
+    polish(image, fixed, own, canvas);
+    tiles[id] = without_margin(shape, canvas);
   });
   report(progress, "mending", 1.0);
 
