@@ -3,6 +3,7 @@
 
 #include "tilepack/error/nearest_name.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/mapping/index_json.h"
 #include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/verify/pack_picture.h"
@@ -27,6 +28,7 @@ struct InspectArguments {
   std::string format = "text";
   std::string picture;
   std::string corner_picture;
+  std::string index_map;
   std::string preview;
   std::string map;
   std::optional<int> level;
@@ -87,6 +89,7 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   options.level = arguments.level;
   options.marks = !arguments.bare;
   if (!arguments.picture.empty()) write_drawing(arguments.picture, pack_picture(pack, options));
+  if (!arguments.index_map.empty()) write_text_file(arguments.index_map, index_map_json(pack.mapping));
   if (!arguments.corner_picture.empty())
     write_drawing(arguments.corner_picture, corner_picture(pack, options));
   if (!arguments.preview.empty())
@@ -104,6 +107,8 @@ Action declare_inspect(CLI::App& app) {
       ->type_name("text|json");
   app.add_option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
       ->type_name("FILE.png|.svg");
+  app.add_option("--index-map", arguments->index_map, "write the tile ids of an index mapping, row by row")
+      ->type_name("FILE.json");
   app.add_option("--corner-picture", arguments->corner_picture, "draw the corner pack likewise")
       ->type_name("FILE.png|.svg");
   app.add_option("--preview", arguments->preview,

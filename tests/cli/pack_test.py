@@ -92,6 +92,18 @@ class Pack(CommandCase):
                 self.run_tilepack("render", "out", "-o", "view.png", "--rect", "0,0,64,64", "--scale", "2")
                 self.run_tilepack("inspect", "out", "--picture", "pack.png")
 
+    def test_the_index_map_is_there_as_json(self):
+        tiles = [(n, (w + j) % 2, (n + j) % 2, w) for n in (0, 1) for w in (0, 1) for j in (0, 1)]
+        self.pack(*self.draw(tiles), "--layout", "array", "--mapping", "index")
+        self.run_tilepack("inspect", "out", "--index-map", "map.json")
+        rows = self.read_json("map.json")["tiles"]
+        self.assertEqual((len(rows), len(rows[0])), (8, 8))
+        for y in range(8):
+            for x in range(8):
+                here, east, south = (tiles[rows[b % 8][a % 8]] for a, b in ((x, y), (x + 1, y), (x, y + 1)))
+                self.assertEqual(here[1], east[3])
+                self.assertEqual(here[2], south[0])
+
     def test_corner_colors(self):
         def plain(*_):
             return [[90] * SIDE for _ in range(SIDE)]
