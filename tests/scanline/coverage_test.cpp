@@ -104,7 +104,8 @@ TEST_CASE("nothing comes of triangles behind the near plane, outside, flat or no
   CHECK(clipped({{{-100, 1, 1}, {-90, 2, 1}, {-95, 9, 1}}}, size, 0.1).empty());
   constexpr double inf = std::numeric_limits<double>::infinity();
   CHECK(clipped({{{1, 1, 1}, {inf, 2, 1}, {3, 9, 1}}}, size, 0.1).empty());
-  CHECK(clipped({{{1, 1, 1}, {4, std::nan(""), 1}, {3, 9, 1}}}, size, 0.1).empty());
+  CHECK(
+      clipped({{{1, 1, 1}, {4, std::numeric_limits<double>::quiet_NaN(), 1}, {3, 9, 1}}}, size, 0.1).empty());
   const auto flat = clipped({{{1, 1, 1}, {5, 5, 1}, {9, 9, 1}}}, size, 0.1);
   const auto hits = counts(flat, size);
   CHECK(std::count(hits.begin(), hits.end(), 0) == 256);
