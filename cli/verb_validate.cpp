@@ -1,10 +1,13 @@
 #include "jobs.h"
 #include "verb.h"
 
+#include "tilepack/pack/pack_read.h"
+#include "tilepack/verify/against_reference.h"
 #include "tilepack/verify/folder_checks.h"
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -15,6 +18,8 @@ struct ValidateArguments {
   std::string pack;
   std::string format = "text";
   bool list_rules = false;
+  bool against_reference = false;
+  int lookups = 4096;
   int jobs = 0;
 };
 
@@ -25,8 +30,23 @@ int run_validate(const ValidateArguments& arguments, Console& console) {
     return 0;
   }
   if (arguments.pack.empty()) throw Error(ErrorKind::usage, "", "PACK is required");
+  if (arguments.format == "csv" && !arguments.against_reference)
+    throw Error(ErrorKind::usage, "--format", "csv holds the figures of --against-reference; give both");
   const JobLimit limit(arguments.jobs);
   const Report report = check_folder(arguments.pack, console.progress());
+  if (arguments.against_reference && passed(report)) {
+    constexpr std::uint64_t seed = 1; // of the places looked at: the same figures every time
+    const auto errors =
+        against_reference(read_pack(arguments.pack), arguments.lookups, seed, console.progress());
+    if (arguments.format == "csv")
+      console.print(reference_errors_csv(errors));
+    else if (json)
+      console.print(fmt::format("{{\"structure\": {},\n\"against_reference\": {}}}\n", report_json(report),
+                                reference_errors_json(errors)));
+    else
+      console.print(report_text(report) + "\n" + reference_errors_text(errors));
+    return 0;
+  }
   console.print(json ? report_json(report) : report_text(report));
   if (!passed(report))
     throw Error(
@@ -39,8 +59,15 @@ Action declare_validate(CLI::App& app) {
   auto arguments = std::make_shared<ValidateArguments>();
   app.add_option("PACK", arguments->pack, "folder or pack.json")->type_name("");
   app.add_option("--format", arguments->format, "of the report on stdout")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->type_name("text|json");
+      ->check(CLI::IsMember({"text", "json", "csv"}))
+      ->type_name("text|json|csv");
+  app.add_flag(
+      "--against-reference", arguments->against_reference,
+      "also hold bilinear lookups against the virtual texture's true mips, level by level: inside tiles, "
+      "across edges, at corners");
+  app.add_option("--lookups", arguments->lookups, "places a zone and level, 16 to 1000000 (default 4096)")
+      ->check(CLI::Range(16, 1000000))
+      ->type_name("N");
   app.add_flag("--list-rules", arguments->list_rules, "show every rule with its number and end");
   add_jobs_option(app, arguments->jobs);
   return [arguments](Console& console) { return run_validate(*arguments, console); };
@@ -52,6 +79,7 @@ Verb validate_verb() {
   return {"validate", "check that a pack is whole and keeps its promises",
           "  tilepack validate gravel.pack\n"
           "  tilepack validate gravel.pack --format json\n"
+          "  tilepack validate gravel.pack --against-reference --format csv\n"
           "Exit code 0 if there is no error (warnings and notes are allowed), 5 if there is one.\n",
           declare_validate};
 }

@@ -1,0 +1,358 @@
+#include "tilepack/verify/lookup_bench.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/sampler/ground_truth.h"
+#include "tilepack/sampler/reference_sampler.h"
+#include "tilepack/sampler/virtual_texture.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace tilepack {
+namespace {
+
+constexpr double samples_a_frame = static_cast<double>(Frame::side) * Frame::side;
+constexpr std::size_t checked_every = 61; // samples of a frame compared with the reference: one in so many
+
+Mapping mapping_of_kind(const Pack& pack, MappingKind kind, VirtualSize size, std::uint64_t seed) {
+  const Mapping mix = mix_mapping(size, seed);
+  if (kind == MappingKind::mix) return mix;
+  if (kind == MappingKind::permutation) return permutation_mapping(size, pack.colors, seed);
+  return index_mapping(mix, pack.colors);
+}
+
+struct Buffers {
+  std::array<std::vector<float>, 4> values;
+  std::array<float*, 4> pointers{};
+  Buffers(int channels, std::size_t count) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+      values[c].resize(count);
+      pointers[c] = values[c].data();
+    }
+  }
+  std::span<float* const> span(int channels) const {
+    return {pointers.data(), static_cast<std::size_t>(channels)};
+  }
+};
+
+// Bucket by bucket into the same small buffer, so that the memory for results isn't what is measured.
+void look_up_frame(const FastSampler& sampler, const Frame& frame, Filter filter, Weights weights,
+                   const Buffers& out) {
+  for (std::size_t at = 0; at < frame.x.size(); at += Frame::bucket)
+    sampler.sample({Frame::bucket, frame.tile_x.data() + at, frame.tile_y.data() + at, frame.x.data() + at,
+                    frame.y.data() + at, frame.level.data() + at},
+                   filter, weights, out.span(sampler.channels()));
+}
+
+// The plain texture's frame: the same texels, but the unit is the whole texture.
+Frame over_whole_texture(const Frame& frame, int columns, int rows) {
+  Frame whole = frame;
+  for (float& x : whole.x) x /= static_cast<float>(columns);
+  for (float& y : whole.y) y /= static_cast<float>(rows);
+  std::fill(whole.tile_x.begin(), whole.tile_x.end(), 0);
+  std::fill(whole.tile_y.begin(), whole.tile_y.end(), 0);
+  return whole;
+}
+
+double encoded(const PackedMap& map, double linear, std::size_t channel) {
+  const bool light = map.channels % 2 == 1 || channel + 1 < static_cast<std::size_t>(map.channels);
+  return map.encoding == Encoding::srgb && light ? linear_to_srgb(linear) : linear;
+}
+
+// Fills in both errors of `cost`; throws where the fast sampler isn't the reference.
+void check_answer(const Pack& pack, int map, const FastSampler& fast, const Frame& frame, Filter filter,
+                  Weights weights, LookupCost& cost) {
+  const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
+  const auto channels = static_cast<std::size_t>(packed.channels);
+  const ReferenceSampler reference(pack, map);
+  const GroundTruth truth = GroundTruth::of_level_0(pack, map);
+  Buffers out(packed.channels, frame.x.size());
+  fast.sample({frame.x.size(), frame.tile_x.data(), frame.tile_y.data(), frame.x.data(), frame.y.data(),
+               frame.level.data()},
+              filter, weights, out.span(packed.channels));
+  double squares = 0;
+  std::size_t count = 0;
+  std::array<double, 4> wanted{};
+  std::array<double, 4> ideal{};
+  for (std::size_t i = 0; i < frame.x.size(); i += checked_every) {
+    const TileCoordinate x{frame.tile_x[i], static_cast<double>(frame.x[i])};
+    const TileCoordinate y{frame.tile_y[i], static_cast<double>(frame.y[i])};
+    const auto level = static_cast<double>(frame.level[i]);
+    reference.sample(x, y, level, filter, {wanted.data(), channels});
+    truth.sample(x, y, level, filter, {ideal.data(), channels});
+    for (std::size_t c = 0; c < channels; ++c) {
+      const auto got = static_cast<double>(out.values[c][i]);
+      cost.off_reference = std::max(cost.off_reference, 255 * std::fabs(got - wanted[c]));
+      const double off = 255 * (encoded(packed, got, c) - encoded(packed, ideal[c], c));
+      squares += off * off;
+      ++count;
+    }
+  }
+  cost.rms_truth = std::sqrt(squares / static_cast<double>(count));
+  const double allowed = weights == Weights::exact ? 0.25 : 2.0;
+  if (cost.off_reference > allowed)
+    throw Error(
+        ErrorKind::check_failed, cost.mapping + " " + cost.filter,
+        fmt::format("the fast sampler is off by {:.3f} of 255, more than {}; this is a fault of tilepack",
+                    cost.off_reference, allowed));
+}
+
+void bench_configurations(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+                          LookupBench& bench) {
+  const int channels = pack.maps[static_cast<std::size_t>(map)].channels;
+  const std::string best = fast_sampler_targets().front();
+  const Buffers out(channels, Frame::bucket);
+  std::vector<FastSampler> samplers;
+  std::vector<std::function<void()>> runs;
+  for (const MappingKind kind : {MappingKind::index, MappingKind::permutation, MappingKind::mix}) {
+    Pack with = pack;
+    with.mapping = mapping_of_kind(pack, kind, {256, 256}, options.seed);
+    samplers.emplace_back(with, map);
+    for (const Filter filter : {Filter::bilinear, Filter::trilinear})
+      for (const Weights weights : {Weights::exact, Weights::fixed_8_8}) {
+        LookupCost cost{"fast",
+                        best,
+                        std::string(name_of(kind)),
+                        std::string(name_of(filter)),
+                        weights == Weights::exact ? "float" : "8.8",
+                        0,
+                        0,
+                        0};
+        check_answer(with, map, samplers.back(), frame, filter, weights, cost);
+        bench.costs.push_back(cost);
+        const std::size_t number = samplers.size() - 1;
+        runs.push_back(
+            [&, number, filter, weights] { look_up_frame(samplers[number], frame, filter, weights, out); });
+      }
+  }
+  const auto times = in_turn(runs, options.rounds, samples_a_frame);
+  for (std::size_t i = 0; i < times.size(); ++i) bench.costs[i].nanoseconds = median(times[i]);
+}
+
+void bench_reference(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+                     LookupBench& bench) {
+  const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
+  const auto channels = static_cast<std::size_t>(packed.channels);
+  const ReferenceSampler reference(pack, map);
+  const GroundTruth truth = GroundTruth::of_level_0(pack, map);
+  for (const Filter filter : {Filter::bilinear, Filter::trilinear}) {
+    LookupCost cost{
+        "reference", "", std::string(name_of(pack.mapping.kind)), std::string(name_of(filter)), "double", 0,
+        0,           0};
+    std::array<double, 4> got{};
+    std::array<double, 4> ideal{};
+    double squares = 0;
+    double count = 0;
+    const auto run = [&](bool compare) {
+      for (std::size_t i = 0; i < frame.x.size(); i += checked_every) {
+        const TileCoordinate x{frame.tile_x[i], static_cast<double>(frame.x[i])};
+        const TileCoordinate y{frame.tile_y[i], static_cast<double>(frame.y[i])};
+        const auto level = static_cast<double>(frame.level[i]);
+        reference.sample(x, y, level, filter, {got.data(), channels});
+        if (!compare) continue;
+        truth.sample(x, y, level, filter, {ideal.data(), channels});
+        for (std::size_t c = 0; c < channels; ++c) {
+          const double off = 255 * (encoded(packed, got[c], c) - encoded(packed, ideal[c], c));
+          squares += off * off;
+          count += 1;
+        }
+      }
+    };
+    run(true);
+    cost.rms_truth = std::sqrt(squares / count);
+    const auto sampled = static_cast<double>((frame.x.size() + checked_every - 1) / checked_every);
+    cost.nanoseconds = median(in_turn({[&] { run(false); }}, options.rounds, sampled)[0]);
+    bench.costs.push_back(cost);
+  }
+}
+
+void bench_against_plain(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+                         LookupBench& bench) {
+  const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
+  const FastSampler plain(packed, packed.levels[0].size());
+  const Frame whole = over_whole_texture(frame, pack.layout.columns, pack.layout.rows);
+  const Buffers out(packed.channels, Frame::bucket);
+  for (const auto& [kind, limit] :
+       {std::pair{MappingKind::index, 0.9}, std::pair{MappingKind::permutation, 0.75},
+        std::pair{MappingKind::mix, 0.0}}) {
+    Pack with = pack;
+    with.mapping = mapping_of_kind(pack, kind, {256, 256}, options.seed);
+    const FastSampler tiled(with, map);
+    const auto times = in_turn({[&] { look_up_frame(plain, whole, Filter::trilinear, Weights::exact, out); },
+                                [&] { look_up_frame(tiled, frame, Filter::trilinear, Weights::exact, out); }},
+                               options.rounds, samples_a_frame);
+    std::vector<double> ratios;
+    for (std::size_t r = 0; r < times[0].size(); ++r) ratios.push_back(times[0][r] / times[1][r]);
+    bench.ratios.push_back(
+        {fmt::format("speed of {} lookups against a plain texture of the pack's size", name_of(kind)),
+         median(ratios), limit > 0 ? std::optional(limit) : std::nullopt});
+  }
+}
+
+void bench_threads(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+                   LookupBench& bench) {
+  const FastSampler sampler(pack, map);
+  const Buffers out(sampler.channels(), frame.x.size());
+  const SampleBatch batch{frame.x.size(), frame.tile_x.data(), frame.tile_y.data(),
+                          frame.x.data(), frame.y.data(),      frame.level.data()};
+  const auto seconds = [&](bool parallel) {
+    const auto start = std::chrono::steady_clock::now();
+    if (parallel)
+      sampler.sample_parallel(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
+    else
+      sampler.sample(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  std::vector<double> ratios;
+  for (int round = -1; round < options.rounds; ++round) {
+    const double single = seconds(false);
+    const double parallel = seconds(true);
+    if (round >= 0) ratios.push_back(single / parallel);
+  }
+  bench.threads =
+      static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  bench.ratios.push_back({fmt::format("speed of {} threads against one, wall clock", bench.threads),
+                          median(ratios), bench.threads == 4 ? std::optional(3.4) : std::nullopt});
+}
+
+// A plain texture of so many tiles a side, each level a box of the one before.
+PackedMap stored_texture(const Pack& pack, int map, int tiles) {
+  PackedMap stored = pack.maps[static_cast<std::size_t>(map)];
+  const int levels = static_cast<int>(stored.levels.size());
+  stored.levels.clear();
+  for (int level = 0; level < levels; ++level) {
+    const Size tile = level_size(pack.tile_size, level);
+    stored.levels.push_back(
+        virtual_texture(pack, map, level, {0, 0, tiles * tile.width, tiles * tile.height}));
+  }
+  return stored;
+}
+
+void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupBench& bench) {
+  constexpr std::int64_t largest_stored = 4096; // texels a side
+  const int channels = pack.maps[static_cast<std::size_t>(map)].channels;
+  const Buffers out(channels, Frame::bucket);
+  std::vector<FastSampler> samplers;
+  std::vector<Frame> frames;
+  std::vector<std::function<void()>> runs;
+  std::vector<std::size_t> stored_run;
+  const auto add = [&](FastSampler sampler, Frame frame) {
+    samplers.push_back(std::move(sampler));
+    frames.push_back(std::move(frame));
+    const std::size_t n = samplers.size() - 1;
+    runs.push_back([&, n] { look_up_frame(samplers[n], frames[n], Filter::trilinear, Weights::exact, out); });
+  };
+  for (const int log2 : {4, 6, 8, 12, 16, 20}) {
+    const std::int64_t tiles = std::int64_t{1} << log2;
+    Pack with = pack;
+    with.mapping = mix_mapping({tiles, tiles}, options.seed);
+    const auto corner = static_cast<std::int32_t>(tiles * 3 / 8);
+    bench.sizes.push_back({tiles, 0, {}});
+    add(FastSampler(with, map), coherent_frame(corner, corner, pack.tile_size.width));
+  }
+  for (SizeCost& size : bench.sizes)
+    if (options.large &&
+        size.tiles * std::max(pack.tile_size.width, pack.tile_size.height) <= largest_stored) {
+      const int tiles = static_cast<int>(size.tiles);
+      const PackedMap stored = stored_texture(pack, map, tiles);
+      stored_run.push_back(runs.size());
+      add(FastSampler(stored, stored.levels[0].size()),
+          over_whole_texture(coherent_frame(0, 0, pack.tile_size.width), tiles, tiles));
+      size.stored = 0;
+    }
+  const auto times = in_turn(runs, options.rounds, samples_a_frame);
+  std::vector<double> flatness;
+  for (std::size_t round = 0; round < times[0].size(); ++round) {
+    double least = times[0][round];
+    double most = least;
+    for (std::size_t s = 0; s < bench.sizes.size(); ++s) {
+      least = std::min(least, times[s][round]);
+      most = std::max(most, times[s][round]);
+    }
+    flatness.push_back(least / most);
+  }
+  std::size_t next_stored = 0;
+  for (std::size_t s = 0; s < bench.sizes.size(); ++s) {
+    bench.sizes[s].tiled = median(times[s]);
+    if (bench.sizes[s].stored) bench.sizes[s].stored = median(times[stored_run[next_stored++]]);
+  }
+  bench.ratios.push_back(
+      {"speed at the slowest size against the fastest, 16 to 2^20 tiles a side", median(flatness), 0.9});
+}
+
+} // namespace
+
+Frame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side) {
+  Frame frame;
+  const double step = frame.texels_a_pixel / tile_side;
+  const double east = step * std::cos(frame.angle);
+  const double south = step * std::sin(frame.angle);
+  constexpr int bucket_side = 64;
+  for (int bucket = 0; bucket < (Frame::side / bucket_side) * (Frame::side / bucket_side); ++bucket)
+    for (std::size_t i = 0; i < Frame::bucket; ++i) {
+      const int px = bucket % (Frame::side / bucket_side) * bucket_side + static_cast<int>(i) % bucket_side;
+      const int py = bucket / (Frame::side / bucket_side) * bucket_side + static_cast<int>(i) / bucket_side;
+      frame.x.push_back(static_cast<float>(0.37 + east * px - south * py));
+      frame.y.push_back(static_cast<float>(0.21 + south * px + east * py));
+    }
+  frame.tile_x.assign(frame.x.size(), tile_x);
+  frame.tile_y.assign(frame.x.size(), tile_y);
+  frame.level.assign(frame.x.size(), static_cast<float>(std::log2(frame.texels_a_pixel)));
+  return frame;
+}
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<std::vector<double>> in_turn(const std::vector<std::function<void()>>& lookups, int rounds,
+                                         double samples) {
+  std::vector<std::vector<double>> times(lookups.size());
+  for (int round = -1; round < rounds; ++round)
+    for (std::size_t i = 0; i < lookups.size(); ++i) {
+      const double start = thread_seconds();
+      lookups[i]();
+      if (round >= 0) times[i].push_back(1e9 * (thread_seconds() - start) / samples);
+    }
+  return times;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+LookupBench bench_lookups(const Pack& pack, int map, const BenchOptions& options, const Progress& progress) {
+  const ColorCounts& k = pack.colors;
+  const int complete = k.corner > 0 ? k.corner * k.corner * k.corner * k.corner
+                                    : k.horizontal * k.horizontal * k.vertical * k.vertical;
+  if (tile_count(pack.tiles) != complete)
+    throw Error(
+        ErrorKind::usage, "pack",
+        fmt::format("has {} of the {} tiles of its colors; the bench needs a complete set, since it tries "
+                    "every mapping",
+                    tile_count(pack.tiles), complete));
+  LookupBench bench;
+  const Frame frame = coherent_frame(20, 30, pack.tile_size.width);
+  report(progress, "lookups", 0.0);
+  bench_configurations(pack, map, options, frame, bench);
+  bench_reference(pack, map, options, frame, bench);
+  report(progress, "lookups", 0.4);
+  bench_against_plain(pack, map, options, frame, bench);
+  bench_threads(pack, map, options, frame, bench);
+  report(progress, "sizes", 0.6);
+  bench_sizes(pack, map, options, bench);
+  report(progress, "sizes", 1.0);
+  return bench;
+}
+
+} // namespace tilepack

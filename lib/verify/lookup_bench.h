@@ -1,0 +1,85 @@
+#pragma once
+
+#include "tilepack/error/progress.h"
+#include "tilepack/pack/pack.h"
+#include "tilepack/sampler/fast_sampler.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tilepack {
+
+/// A frame of coherent lookups, as a renderer makes them: a square of 512 x 512 pixels, turned by 0.3
+/// rad, 1.3 texels a pixel, in buckets of 64 x 64. Positions in tiles, structure of arrays.
+struct Frame {
+  static constexpr int side = 512;
+  static constexpr std::size_t bucket = 64 * 64;
+  std::vector<std::int32_t> tile_x, tile_y; ///< of the frame's corner, the same for all
+  std::vector<float> x, y;                  ///< tiles from there
+  std::vector<float> level;                 ///< log2 1.3 everywhere
+  double texels_a_pixel = 1.3;
+  double angle = 0.3;
+};
+
+/// Starting at a tile; `tile_side` texels a tile at level 0.
+Frame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side);
+
+/// Processor time of this thread, seconds: what other programs take away doesn't count.
+double thread_seconds();
+
+/// Nanoseconds a sample that each of `lookups` takes over a frame: run in turn, `rounds` times after one
+/// round unmeasured. [lookup][round]; ratios and medians are taken from rounds, not from different times.
+std::vector<std::vector<double>> in_turn(const std::vector<std::function<void()>>& lookups, int rounds,
+                                         double samples);
+double median(std::vector<double> values);
+
+/// One way to look the pack up, what it costs and how far off it is.
+struct LookupCost {
+  std::string sampler; ///< "fast" or "reference"
+  std::string target;  ///< instruction set
+  std::string mapping;
+  std::string filter;
+  std::string weights;      ///< "float", "8.8", "double"
+  double nanoseconds = 0;   ///< a sample, one thread, median
+  double off_reference = 0; ///< largest difference from the reference sampler, 8-bit units of linear light
+  double rms_truth = 0;     ///< RMS against the ground truth, 8-bit units of the encoded value
+};
+
+/// A measured figure and what it is held to, if anything.
+struct BenchRatio {
+  std::string name;
+  double value = 0;
+  std::optional<double> at_least;
+  bool met() const { return !at_least || value >= *at_least; }
+};
+
+/// Cost at one size of the virtual texture; `stored` is a plain texture of that size, where it was made.
+struct SizeCost {
+  std::int64_t tiles = 0; ///< a side
+  double tiled = 0;       ///< nanoseconds a sample
+  std::optional<double> stored;
+};
+
+struct LookupBench {
+  std::vector<LookupCost> costs;
+  std::vector<BenchRatio> ratios; ///< tiled against plain, threads
+  std::vector<SizeCost> sizes;
+  int threads = 1;
+};
+
+struct BenchOptions {
+  int rounds = 9;    ///< 1..1000; medians are taken over them
+  bool large = true; ///< also what takes seconds and hundreds of megabytes: stored textures, maketx
+  std::uint64_t seed = 1;
+};
+
+/// Times the fast and the reference sampler on one map of a pack, after checking each answer against the
+/// reference (Error, check_failed, if one is off by more than a quarter of an 8-bit unit; 8.8 weights: 2
+/// units). Times differ from run to run, errors don't.
+LookupBench bench_lookups(const Pack& pack, int map, const BenchOptions& options,
+                          const Progress& progress = {});
+
+} // namespace tilepack

@@ -1,0 +1,246 @@
+#include "tilepack/verify/stored_texture_bench.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/sampler/virtual_texture.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/texture.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+namespace tilepack {
+namespace {
+
+constexpr int stored_side = 8192; // texels
+constexpr int mip_side = 4096;
+
+// Values as stored, taken for linear: the texture system doesn't decode either.
+Pack as_linear(const Pack& pack, int map) {
+  Pack result = pack;
+  result.maps = {pack.maps[static_cast<std::size_t>(map)]};
+  result.maps[0].encoding = Encoding::linear;
+  return result;
+}
+
+OIIO::TypeDesc type_of(Depth depth) {
+  switch (depth) {
+  case Depth::u8:
+    return OIIO::TypeDesc::UINT8;
+  case Depth::u16:
+    return OIIO::TypeDesc::UINT16;
+  case Depth::f16:
+    return OIIO::TypeDesc::HALF;
+  case Depth::f32:
+    break;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+// In bands, so that floats of the whole are never in memory.
+OIIO::ImageBuf written_out(const Pack& pack, Size size) {
+  const PackedMap& map = pack.maps[0];
+  OIIO::ImageBuf buffer(OIIO::ImageSpec(size.width, size.height, map.channels, type_of(map.depth)));
+  constexpr int band = 256;
+  for (int y = 0; y < size.height; y += band) {
+    const int rows = std::min(band, size.height - y);
+    const Image part = virtual_texture(pack, 0, 0, {0, y, size.width, rows});
+    buffer.set_pixels(OIIO::ROI(0, size.width, y, y + rows, 0, 1, 0, map.channels), OIIO::TypeDesc::FLOAT,
+                      part.data().data());
+  }
+  return buffer;
+}
+
+void make_texture(const OIIO::ImageBuf& buffer, const std::filesystem::path& file) {
+  OIIO::ImageSpec config;
+  config.tile_width = 64;
+  config.tile_height = 64;
+  config.attribute("maketx:filtername", "box");
+  config.attribute("wrapmodes", "periodic,periodic");
+  if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, buffer, file.string(), config))
+    throw Error(ErrorKind::cannot_write, file.string(), OIIO::geterror());
+}
+
+struct SystemDeleter {
+  void operator()(OIIO::TextureSystem* system) const { OIIO::TextureSystem::destroy(system); }
+};
+
+// 16 lookups a call, results as the texture system lays them out: channel after channel for each call.
+class StoredTexture {
+public:
+  StoredTexture(const std::filesystem::path& file, int channels, Size size)
+      : system(OIIO::TextureSystem::create(false)), channel_count(static_cast<std::size_t>(channels)),
+        side(size) {
+    system->attribute("max_memory_MB", 4096.0f);
+    handle = system->get_texture_handle(OIIO::ustring(file.string()));
+    thread = system->get_perthread_info();
+    options.interpmode = OIIO::Tex::InterpMode::Bilinear;
+    options.mipmode = OIIO::Tex::MipMode::Trilinear;
+    options.swrap = options.twrap = OIIO::Tex::Wrap::Periodic;
+    options.anisotropic = 1;
+  }
+
+  // s and t of a frame over the whole texture.
+  void look_up(const Frame& frame, std::vector<float>& out) {
+    constexpr std::size_t width = OIIO::Tex::BatchWidth;
+    alignas(64) float ds_dx[width], dt_dx[width], ds_dy[width], dt_dy[width];
+    const auto step = static_cast<float>(frame.texels_a_pixel);
+    const auto cosine = static_cast<float>(std::cos(frame.angle));
+    const auto sine = static_cast<float>(std::sin(frame.angle));
+    for (std::size_t k = 0; k < width; ++k) {
+      ds_dx[k] = step * cosine / static_cast<float>(side.width);
+      dt_dx[k] = step * sine / static_cast<float>(side.height);
+      ds_dy[k] = -step * sine / static_cast<float>(side.width);
+      dt_dy[k] = step * cosine / static_cast<float>(side.height);
+    }
+    for (std::size_t at = 0; at + width <= frame.x.size(); at += width)
+      system->texture(handle, thread, options, OIIO::Tex::RunMaskOn, frame.x.data() + at, frame.y.data() + at,
+                      ds_dx, dt_dx, ds_dy, dt_dy, static_cast<int>(channel_count),
+                      out.data() + at % Frame::bucket * channel_count);
+  }
+
+private:
+  std::unique_ptr<OIIO::TextureSystem, SystemDeleter> system;
+  OIIO::TextureSystem::TextureHandle* handle = nullptr;
+  OIIO::TextureSystem::Perthread* thread = nullptr;
+  OIIO::TextureOptBatch options;
+  std::size_t channel_count;
+  Size side;
+};
+
+Frame part_of(const Frame& frame, std::size_t at, std::size_t count) {
+  Frame part = frame;
+  const auto cut = [&](auto& array) {
+    array.erase(array.begin(), array.begin() + static_cast<std::ptrdiff_t>(at));
+    array.resize(count);
+  };
+  cut(part.x);
+  cut(part.y);
+  cut(part.tile_x);
+  cut(part.tile_y);
+  cut(part.level);
+  return part;
+}
+
+SampleBatch batch_of(const Frame& frame, std::size_t at, std::size_t count) {
+  return {count,
+          frame.tile_x.data() + at,
+          frame.tile_y.data() + at,
+          frame.x.data() + at,
+          frame.y.data() + at,
+          frame.level.data() + at};
+}
+
+void compare_answers(StoredTexture& stored, const FastSampler& fast, const Frame& over_whole,
+                     const Frame& in_tiles) {
+  const auto channels = static_cast<std::size_t>(fast.channels());
+  std::vector<float> theirs(Frame::bucket * channels);
+  std::vector<float> ours(Frame::bucket * channels);
+  stored.look_up(part_of(over_whole, 0, Frame::bucket), theirs);
+  std::vector<float*> pointers;
+  for (std::size_t c = 0; c < channels; ++c) pointers.push_back(ours.data() + c * Frame::bucket);
+  fast.sample(batch_of(in_tiles, 0, Frame::bucket), Filter::trilinear, Weights::exact, pointers);
+  constexpr std::size_t width = OIIO::Tex::BatchWidth;
+  double sum = 0;
+  for (std::size_t i = 0; i < Frame::bucket; ++i)
+    for (std::size_t c = 0; c < channels; ++c)
+      sum += std::fabs(static_cast<double>(ours[c * Frame::bucket + i]) -
+                       static_cast<double>(theirs[(i / width * channels + c) * width + i % width]));
+  const double mean = 255 * sum / static_cast<double>(ours.size());
+  if (!(mean < 2.0))
+    throw Error(
+        ErrorKind::check_failed, "stored texture",
+        fmt::format("lookups through the pack and of the stored texture differ by {:.2f} of 255 on average",
+                    mean));
+}
+
+BenchRatio mip_ratio(const Pack& pack, const std::filesystem::path& folder, const BenchOptions& options) {
+  // Whole tiles, but one big tile as far as both are concerned.
+  const int tiles = std::max(1, mip_side / pack.tile_size.width);
+  const Size size{tiles * pack.tile_size.width, tiles * pack.tile_size.height};
+  const PackedMap& map = pack.maps[0];
+  TileSet set{size, {1, 1, 0}, complete_edge_set(1, 1), {}, 0};
+  set.maps.push_back({map.name,
+                      map.role,
+                      map.encoding,
+                      map.depth,
+                      {virtual_texture(pack, 0, 0, {0, 0, size.width, size.height})}});
+  const OIIO::ImageBuf buffer = written_out(pack, size);
+  std::vector<double> ratios;
+  // Both use all threads they get, so the clock on the wall counts.
+  const auto seconds = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  for (int round = 0; round < std::min(options.rounds, 3); ++round) {
+    const double start = seconds();
+    const auto chain = mip_chain(set, 0, {MipMode::box});
+    const double between = seconds();
+    make_texture(buffer, folder / "mips.tx");
+    ratios.push_back((seconds() - between) / (between - start));
+  }
+  return {fmt::format("mip_chain of {} x {} texels against maketx", size.width, size.height), median(ratios),
+          60.0};
+}
+
+} // namespace
+
+std::vector<BenchRatio> bench_stored_texture(const Pack& original, int map,
+                                             const std::filesystem::path& folder, const BenchOptions& options,
+                                             const Progress& progress) {
+  Pack pack = as_linear(original, map);
+  const int columns = std::max(1, stored_side / pack.tile_size.width);
+  const int rows = std::max(1, stored_side / pack.tile_size.height);
+  pack.mapping = mix_mapping({columns, rows}, options.seed);
+  const Size size{columns * pack.tile_size.width, rows * pack.tile_size.height};
+  report(progress, "stored texture", 0.0);
+  make_texture(written_out(pack, size), folder / "stored.tx");
+
+  const Frame in_tiles = coherent_frame(0, 0, pack.tile_size.width);
+  Frame over_whole = in_tiles;
+  for (float& x : over_whole.x) x /= static_cast<float>(columns);
+  for (float& y : over_whole.y) y /= static_cast<float>(rows);
+  StoredTexture stored(folder / "stored.tx", pack.maps[0].channels, size);
+  std::vector<float> theirs(Frame::bucket * static_cast<std::size_t>(pack.maps[0].channels));
+  std::vector<float> ours(theirs.size());
+  std::vector<float*> pointers;
+  for (int c = 0; c < pack.maps[0].channels; ++c)
+    pointers.push_back(ours.data() + static_cast<std::size_t>(c) * Frame::bucket);
+
+  std::vector<FastSampler> samplers;
+  std::vector<std::function<void()>> runs{[&] { stored.look_up(over_whole, theirs); }};
+  const std::vector<std::string> targets = fast_sampler_targets();
+  std::vector<std::pair<std::string, double>> held_to{{targets.front(), 20.0}};
+  if (targets.front() != "AVX2" && std::find(targets.begin(), targets.end(), "AVX2") != targets.end())
+    held_to.emplace_back("AVX2", 15.0);
+  samplers.reserve(held_to.size());
+  for (const auto& [target, limit] : held_to) {
+    samplers.emplace_back(pack, 0, target);
+    compare_answers(stored, samplers.back(), over_whole, in_tiles);
+    runs.push_back([&, n = samplers.size() - 1] {
+      for (std::size_t at = 0; at < in_tiles.x.size(); at += Frame::bucket)
+        samplers[n].sample(batch_of(in_tiles, at, Frame::bucket), Filter::trilinear, Weights::exact,
+                           pointers);
+    });
+  }
+  report(progress, "stored texture", 0.5);
+  const auto times = in_turn(runs, options.rounds, static_cast<double>(Frame::side) * Frame::side);
+  std::vector<BenchRatio> result;
+  for (std::size_t i = 0; i < held_to.size(); ++i) {
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < times[0].size(); ++round)
+      ratios.push_back(times[0][round] / times[i + 1][round]);
+    result.push_back(
+        {fmt::format("trilinear lookups ({}) against OpenImageIO's texture system on {} x {} texels stored",
+                     held_to[i].first, size.width, size.height),
+         median(ratios), held_to[i].second});
+  }
+  report(progress, "mips", 0.8);
+  result.push_back(mip_ratio(pack, folder, options));
+  return result;
+}
+
+} // namespace tilepack
