@@ -17,7 +17,7 @@
 namespace tilepack {
 namespace {
 
-constexpr double samples_a_frame = static_cast<double>(Frame::side) * Frame::side;
+constexpr double samples_a_frame = static_cast<double>(LookupFrame::side) * LookupFrame::side;
 constexpr std::size_t checked_every = 61; // samples of a frame compared with the reference: one in so many
 
 Mapping mapping_of_kind(const Pack& pack, MappingKind kind, VirtualSize size, std::uint64_t seed) {
@@ -42,17 +42,17 @@ struct Buffers {
 };
 
 // Bucket by bucket into the same small buffer, so that the memory for results isn't what is measured.
-void look_up_frame(const FastSampler& sampler, const Frame& frame, Filter filter, Weights weights,
+void look_up_frame(const FastSampler& sampler, const LookupFrame& frame, Filter filter, Weights weights,
                    const Buffers& out) {
-  for (std::size_t at = 0; at < frame.x.size(); at += Frame::bucket)
-    sampler.sample({Frame::bucket, frame.tile_x.data() + at, frame.tile_y.data() + at, frame.x.data() + at,
-                    frame.y.data() + at, frame.level.data() + at},
+  for (std::size_t at = 0; at < frame.x.size(); at += LookupFrame::bucket)
+    sampler.sample({LookupFrame::bucket, frame.tile_x.data() + at, frame.tile_y.data() + at,
+                    frame.x.data() + at, frame.y.data() + at, frame.level.data() + at},
                    filter, weights, out.span(sampler.channels()));
 }
 
 // The plain texture's frame: the same texels, but the unit is the whole texture.
-Frame over_whole_texture(const Frame& frame, int columns, int rows) {
-  Frame whole = frame;
+LookupFrame over_whole_texture(const LookupFrame& frame, int columns, int rows) {
+  LookupFrame whole = frame;
   for (float& x : whole.x) x /= static_cast<float>(columns);
   for (float& y : whole.y) y /= static_cast<float>(rows);
   std::fill(whole.tile_x.begin(), whole.tile_x.end(), 0);
@@ -66,7 +66,7 @@ double encoded(const PackedMap& map, double linear, std::size_t channel) {
 }
 
 // Fills in both errors of `cost`; throws where the fast sampler isn't the reference.
-void check_answer(const Pack& pack, int map, const FastSampler& fast, const Frame& frame, Filter filter,
+void check_answer(const Pack& pack, int map, const FastSampler& fast, const LookupFrame& frame, Filter filter,
                   Weights weights, LookupCost& cost) {
   const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
   const auto channels = static_cast<std::size_t>(packed.channels);
@@ -103,11 +103,11 @@ void check_answer(const Pack& pack, int map, const FastSampler& fast, const Fram
                     cost.off_reference, allowed));
 }
 
-void bench_configurations(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+void bench_configurations(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
                           LookupBench& bench) {
   const int channels = pack.maps[static_cast<std::size_t>(map)].channels;
   const std::string best = fast_sampler_targets().front();
-  const Buffers out(channels, Frame::bucket);
+  const Buffers out(channels, LookupFrame::bucket);
   std::vector<FastSampler> samplers;
   std::vector<std::function<void()>> runs;
   for (const MappingKind kind : {MappingKind::index, MappingKind::permutation, MappingKind::mix}) {
@@ -135,7 +135,7 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
   for (std::size_t i = 0; i < times.size(); ++i) bench.costs[i].nanoseconds = median(times[i]);
 }
 
-void bench_reference(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+void bench_reference(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
                      LookupBench& bench) {
   const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
   const auto channels = static_cast<std::size_t>(packed.channels);
@@ -172,12 +172,12 @@ void bench_reference(const Pack& pack, int map, const BenchOptions& options, con
   }
 }
 
-void bench_against_plain(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+void bench_against_plain(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
                          LookupBench& bench) {
   const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
   const FastSampler plain(packed, packed.levels[0].size());
-  const Frame whole = over_whole_texture(frame, pack.layout.columns, pack.layout.rows);
-  const Buffers out(packed.channels, Frame::bucket);
+  const LookupFrame whole = over_whole_texture(frame, pack.layout.columns, pack.layout.rows);
+  const Buffers out(packed.channels, LookupFrame::bucket);
   for (const auto& [kind, limit] :
        {std::pair{MappingKind::index, 0.9}, std::pair{MappingKind::permutation, 0.75},
         std::pair{MappingKind::mix, 0.0}}) {
@@ -195,7 +195,7 @@ void bench_against_plain(const Pack& pack, int map, const BenchOptions& options,
   }
 }
 
-void bench_threads(const Pack& pack, int map, const BenchOptions& options, const Frame& frame,
+void bench_threads(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
                    LookupBench& bench) {
   const FastSampler sampler(pack, map);
   const Buffers out(sampler.channels(), frame.x.size());
@@ -237,12 +237,12 @@ PackedMap stored_texture(const Pack& pack, int map, int tiles) {
 void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupBench& bench) {
   constexpr std::int64_t largest_stored = 4096; // texels a side
   const int channels = pack.maps[static_cast<std::size_t>(map)].channels;
-  const Buffers out(channels, Frame::bucket);
+  const Buffers out(channels, LookupFrame::bucket);
   std::vector<FastSampler> samplers;
-  std::vector<Frame> frames;
+  std::vector<LookupFrame> frames;
   std::vector<std::function<void()>> runs;
   std::vector<std::size_t> stored_run;
-  const auto add = [&](FastSampler sampler, Frame frame) {
+  const auto add = [&](FastSampler sampler, LookupFrame frame) {
     samplers.push_back(std::move(sampler));
     frames.push_back(std::move(frame));
     const std::size_t n = samplers.size() - 1;
@@ -288,16 +288,19 @@ void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupB
 
 } // namespace
 
-Frame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side) {
-  Frame frame;
+LookupFrame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side) {
+  LookupFrame frame;
   const double step = frame.texels_a_pixel / tile_side;
   const double east = step * std::cos(frame.angle);
   const double south = step * std::sin(frame.angle);
   constexpr int bucket_side = 64;
-  for (int bucket = 0; bucket < (Frame::side / bucket_side) * (Frame::side / bucket_side); ++bucket)
-    for (std::size_t i = 0; i < Frame::bucket; ++i) {
-      const int px = bucket % (Frame::side / bucket_side) * bucket_side + static_cast<int>(i) % bucket_side;
-      const int py = bucket / (Frame::side / bucket_side) * bucket_side + static_cast<int>(i) / bucket_side;
+  for (int bucket = 0; bucket < (LookupFrame::side / bucket_side) * (LookupFrame::side / bucket_side);
+       ++bucket)
+    for (std::size_t i = 0; i < LookupFrame::bucket; ++i) {
+      const int px =
+          bucket % (LookupFrame::side / bucket_side) * bucket_side + static_cast<int>(i) % bucket_side;
+      const int py =
+          bucket / (LookupFrame::side / bucket_side) * bucket_side + static_cast<int>(i) / bucket_side;
       frame.x.push_back(static_cast<float>(0.37 + east * px - south * py));
       frame.y.push_back(static_cast<float>(0.21 + south * px + east * py));
     }
@@ -342,7 +345,7 @@ LookupBench bench_lookups(const Pack& pack, int map, const BenchOptions& options
                     "every mapping",
                     tile_count(pack.tiles), complete));
   LookupBench bench;
-  const Frame frame = coherent_frame(20, 30, pack.tile_size.width);
+  const LookupFrame frame = coherent_frame(20, 30, pack.tile_size.width);
   report(progress, "lookups", 0.0);
   bench_configurations(pack, map, options, frame, bench);
   bench_reference(pack, map, options, frame, bench);

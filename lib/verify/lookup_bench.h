@@ -14,7 +14,7 @@ namespace tilepack {
 
 /// A frame of coherent lookups, as a renderer makes them: a square of 512 x 512 pixels, turned by 0.3
 /// rad, 1.3 texels a pixel, in buckets of 64 x 64. Positions in tiles, structure of arrays.
-struct Frame {
+struct LookupFrame {
   static constexpr int side = 512;
   static constexpr std::size_t bucket = 64 * 64;
   std::vector<std::int32_t> tile_x, tile_y; ///< of the frame's corner, the same for all
@@ -25,7 +25,7 @@ struct Frame {
 };
 
 /// Starting at a tile; `tile_side` texels a tile at level 0.
-Frame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side);
+LookupFrame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side);
 
 /// Processor time of this thread, seconds: what other programs take away doesn't count.
 double thread_seconds();

@@ -79,13 +79,14 @@ public:
     handle = system->get_texture_handle(OIIO::ustring(file.string()));
     thread = system->get_perthread_info();
     options.interpmode = OIIO::Tex::InterpMode::Bilinear;
-    options.mipmode = OIIO::Tex::MipMode::Trilinear;
     options.swrap = options.twrap = OIIO::Tex::Wrap::Periodic;
     options.anisotropic = 1;
   }
 
   // s and t of a frame over the whole texture.
-  void look_up(const Frame& frame, std::vector<float>& out) {
+  void look_up(const LookupFrame& frame, std::vector<float>& out,
+               OIIO::Tex::MipMode mode = OIIO::Tex::MipMode::Trilinear) {
+    options.mipmode = mode;
     constexpr std::size_t width = OIIO::Tex::BatchWidth;
     alignas(64) float ds_dx[width], dt_dx[width], ds_dy[width], dt_dy[width];
     const auto step = static_cast<float>(frame.texels_a_pixel);
@@ -100,7 +101,7 @@ public:
     for (std::size_t at = 0; at + width <= frame.x.size(); at += width)
       system->texture(handle, thread, options, OIIO::Tex::RunMaskOn, frame.x.data() + at, frame.y.data() + at,
                       ds_dx, dt_dx, ds_dy, dt_dy, static_cast<int>(channel_count),
-                      out.data() + at % Frame::bucket * channel_count);
+                      out.data() + at % LookupFrame::bucket * channel_count);
   }
 
 private:
@@ -112,8 +113,8 @@ private:
   Size side;
 };
 
-Frame part_of(const Frame& frame, std::size_t at, std::size_t count) {
-  Frame part = frame;
+LookupFrame part_of(const LookupFrame& frame, std::size_t at, std::size_t count) {
+  LookupFrame part = frame;
   const auto cut = [&](auto& array) {
     array.erase(array.begin(), array.begin() + static_cast<std::ptrdiff_t>(at));
     array.resize(count);
@@ -126,7 +127,7 @@ Frame part_of(const Frame& frame, std::size_t at, std::size_t count) {
   return part;
 }
 
-SampleBatch batch_of(const Frame& frame, std::size_t at, std::size_t count) {
+SampleBatch batch_of(const LookupFrame& frame, std::size_t at, std::size_t count) {
   return {count,
           frame.tile_x.data() + at,
           frame.tile_y.data() + at,
@@ -135,23 +136,24 @@ SampleBatch batch_of(const Frame& frame, std::size_t at, std::size_t count) {
           frame.level.data() + at};
 }
 
-void compare_answers(StoredTexture& stored, const FastSampler& fast, const Frame& over_whole,
-                     const Frame& in_tiles) {
+// In level 0, where both must find the same; the texture system picks levels a little differently.
+void compare_answers(StoredTexture& stored, const FastSampler& fast, const LookupFrame& over_whole,
+                     const LookupFrame& in_tiles) {
   const auto channels = static_cast<std::size_t>(fast.channels());
-  std::vector<float> theirs(Frame::bucket * channels);
-  std::vector<float> ours(Frame::bucket * channels);
-  stored.look_up(part_of(over_whole, 0, Frame::bucket), theirs);
+  std::vector<float> theirs(LookupFrame::bucket * channels);
+  std::vector<float> ours(LookupFrame::bucket * channels);
+  stored.look_up(part_of(over_whole, 0, LookupFrame::bucket), theirs, OIIO::Tex::MipMode::OneLevel);
   std::vector<float*> pointers;
-  for (std::size_t c = 0; c < channels; ++c) pointers.push_back(ours.data() + c * Frame::bucket);
-  fast.sample(batch_of(in_tiles, 0, Frame::bucket), Filter::trilinear, Weights::exact, pointers);
+  for (std::size_t c = 0; c < channels; ++c) pointers.push_back(ours.data() + c * LookupFrame::bucket);
+  fast.sample(batch_of(in_tiles, 0, LookupFrame::bucket), Filter::bilinear, Weights::exact, pointers);
   constexpr std::size_t width = OIIO::Tex::BatchWidth;
   double sum = 0;
-  for (std::size_t i = 0; i < Frame::bucket; ++i)
+  for (std::size_t i = 0; i < LookupFrame::bucket; ++i)
     for (std::size_t c = 0; c < channels; ++c)
-      sum += std::fabs(static_cast<double>(ours[c * Frame::bucket + i]) -
+      sum += std::fabs(static_cast<double>(ours[c * LookupFrame::bucket + i]) -
                        static_cast<double>(theirs[(i / width * channels + c) * width + i % width]));
   const double mean = 255 * sum / static_cast<double>(ours.size());
-  if (!(mean < 2.0))
+  if (!(mean < 0.05))
     throw Error(
         ErrorKind::check_failed, "stored texture",
         fmt::format("lookups through the pack and of the stored texture differ by {:.2f} of 255 on average",
@@ -199,16 +201,16 @@ std::vector<BenchRatio> bench_stored_texture(const Pack& original, int map,
   report(progress, "stored texture", 0.0);
   make_texture(written_out(pack, size), folder / "stored.tx");
 
-  const Frame in_tiles = coherent_frame(0, 0, pack.tile_size.width);
-  Frame over_whole = in_tiles;
+  const LookupFrame in_tiles = coherent_frame(0, 0, pack.tile_size.width);
+  LookupFrame over_whole = in_tiles;
   for (float& x : over_whole.x) x /= static_cast<float>(columns);
   for (float& y : over_whole.y) y /= static_cast<float>(rows);
   StoredTexture stored(folder / "stored.tx", pack.maps[0].channels, size);
-  std::vector<float> theirs(Frame::bucket * static_cast<std::size_t>(pack.maps[0].channels));
+  std::vector<float> theirs(LookupFrame::bucket * static_cast<std::size_t>(pack.maps[0].channels));
   std::vector<float> ours(theirs.size());
   std::vector<float*> pointers;
   for (int c = 0; c < pack.maps[0].channels; ++c)
-    pointers.push_back(ours.data() + static_cast<std::size_t>(c) * Frame::bucket);
+    pointers.push_back(ours.data() + static_cast<std::size_t>(c) * LookupFrame::bucket);
 
   std::vector<FastSampler> samplers;
   std::vector<std::function<void()>> runs{[&] { stored.look_up(over_whole, theirs); }};
@@ -221,13 +223,14 @@ std::vector<BenchRatio> bench_stored_texture(const Pack& original, int map,
     samplers.emplace_back(pack, 0, target);
     compare_answers(stored, samplers.back(), over_whole, in_tiles);
     runs.push_back([&, n = samplers.size() - 1] {
-      for (std::size_t at = 0; at < in_tiles.x.size(); at += Frame::bucket)
-        samplers[n].sample(batch_of(in_tiles, at, Frame::bucket), Filter::trilinear, Weights::exact,
+      for (std::size_t at = 0; at < in_tiles.x.size(); at += LookupFrame::bucket)
+        samplers[n].sample(batch_of(in_tiles, at, LookupFrame::bucket), Filter::trilinear, Weights::exact,
                            pointers);
     });
   }
   report(progress, "stored texture", 0.5);
-  const auto times = in_turn(runs, options.rounds, static_cast<double>(Frame::side) * Frame::side);
+  const auto times =
+      in_turn(runs, options.rounds, static_cast<double>(LookupFrame::side) * LookupFrame::side);
   std::vector<BenchRatio> result;
   for (std::size_t i = 0; i < held_to.size(); ++i) {
     std::vector<double> ratios;
