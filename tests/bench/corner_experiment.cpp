@@ -62,8 +62,8 @@ enum class Lookup { plain, corners_alone, blended, truth };
 class Experiment {
 public:
   Experiment(const Pack& of_pack, int of_level, double width)
-      : pack(&of_pack), level(of_level), plain(of_pack, 0, 0), blended(of_pack, 0, width),
-        corners(of_pack, 0, width), tile(level_size(of_pack.tile_size, of_level)),
+      : level(of_level), plain(of_pack, 0, 0), blended(of_pack, 0, width), corners(of_pack, 0, width),
+        tile(level_size(of_pack.tile_size, of_level)),
         written(virtual_texture(of_pack, 0, of_level, {0, 0, cells * tile.width, cells * tile.height})) {}
 
   Value at(Lookup lookup, TileCoordinate x, TileCoordinate y) const {
@@ -94,7 +94,6 @@ public:
   }
 
 private:
-  const Pack* pack;
   int level;
   ReferenceSampler plain;
   ReferenceSampler blended;
