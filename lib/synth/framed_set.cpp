@@ -12,7 +12,7 @@ namespace tilepack {
 namespace {
 
 // Above this many texels a search would take more memory than the sample itself.
-constexpr std::int64_t most_searched_texels = 1'100'000;
+constexpr std::int64_t most_searched_texels = 300'000;
 
 // The image halved again and again while its tiles stay at least `smallest_tile` texels wide, and further if
 // it is too large to be searched.
@@ -39,7 +39,8 @@ int margin_of(const FrameShape& shape) {
 SourceCanvas with_margin(const FrameShape& shape, const FramePlan& plan, const Frame& frame, std::size_t id,
                          const SourceCanvas& tile) {
   const int m = margin_of(shape);
-  const auto [w, h] = shape.tile;
+  const int w = shape.tile.width;
+  const int h = shape.tile.height;
   const FrameShape::Tile& t = shape.tiles[id];
   const auto north = static_cast<std::size_t>(t.north);
   const auto south = static_cast<std::size_t>(t.south);

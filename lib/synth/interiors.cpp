@@ -228,7 +228,8 @@ bool in_guard(const FrameShape& shape, int x, int y) {
 
 std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& frame) {
   std::vector<SourceCanvas> tiles(shape.tiles.size());
-  const int w = shape.tile.width, h = shape.tile.height;
+  const int w = shape.tile.width;
+  const int h = shape.tile.height;
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
     const FrameShape::Tile& t = shape.tiles[id];
     const SourceCanvas& north = frame.horizontal[static_cast<std::size_t>(t.north)];

@@ -143,7 +143,7 @@ EdgePatches searched(const std::vector<Scene>& scenes, const PatchSearch& search
 
 // Halved until a search takes a fraction of a second and the memory of its spectra stays below that of the
 // sample, but not so far that a tile loses its features.
-constexpr std::int64_t search_area = 700'000;
+constexpr std::int64_t search_area = 300'000;
 constexpr int smallest_searched_tile = 32;
 
 std::vector<FeatureImage> pyramid(const FeatureImage& image, const SynthOptions& options) {

@@ -45,7 +45,8 @@ Sides sides_of(const SourceMap& map, std::size_t id) {
 // Texels within `depth` of an edge, its whole length, are the same in all tiles of its color, and run on in
 // the sample across the edge wherever the strip is one piece there.
 void check_borders(const SourceMap& map, int depth) {
-  const auto [w, h] = map.tile_size;
+  const int w = map.tile_size.width;
+  const int h = map.tile_size.height;
   const auto at = [&](std::size_t id, int x, int y) {
     return map.texels[id][static_cast<std::size_t>(y * w + x)];
   };
