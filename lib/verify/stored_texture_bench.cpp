@@ -81,6 +81,13 @@ public:
     options.interpmode = OIIO::Tex::InterpMode::Bilinear;
     options.swrap = options.twrap = OIIO::Tex::Wrap::Periodic;
     options.anisotropic = 1;
+    // Not initialised by their constructor.
+    std::fill_n(options.sblur, OIIO::Tex::BatchWidth, 0.0f);
+    std::fill_n(options.tblur, OIIO::Tex::BatchWidth, 0.0f);
+    std::fill_n(options.rblur, OIIO::Tex::BatchWidth, 0.0f);
+    std::fill_n(options.swidth, OIIO::Tex::BatchWidth, 1.0f);
+    std::fill_n(options.twidth, OIIO::Tex::BatchWidth, 1.0f);
+    std::fill_n(options.rwidth, OIIO::Tex::BatchWidth, 1.0f);
   }
 
   // s and t of a frame over the whole texture.
@@ -142,7 +149,7 @@ void compare_answers(StoredTexture& stored, const FastSampler& fast, const Looku
   const auto channels = static_cast<std::size_t>(fast.channels());
   std::vector<float> theirs(LookupFrame::bucket * channels);
   std::vector<float> ours(LookupFrame::bucket * channels);
-  stored.look_up(part_of(over_whole, 0, LookupFrame::bucket), theirs, OIIO::Tex::MipMode::OneLevel);
+  stored.look_up(part_of(over_whole, 0, LookupFrame::bucket), theirs, OIIO::Tex::MipMode::NoMIP);
   std::vector<float*> pointers;
   for (std::size_t c = 0; c < channels; ++c) pointers.push_back(ours.data() + c * LookupFrame::bucket);
   fast.sample(batch_of(in_tiles, 0, LookupFrame::bucket), Filter::bilinear, Weights::exact, pointers);
