@@ -6,6 +6,7 @@
 #include <tilepack/image/image_file.h>
 #include <tilepack/pack/bake.h>
 #include <tilepack/sampler/reference_sampler.h>
+#include <vector>
 
 int main(int count, char** arguments) try {
   if (count != 2) {
@@ -20,7 +21,7 @@ int main(int count, char** arguments) try {
   const tilepack::Pack pack = tilepack::bake(std::array{sample}, options);
 
   const tilepack::ReferenceSampler sampler(pack, 0);
-  std::array<double, 4> texel{}; // linear light, sampler.channels() of them
+  std::vector<double> texel(static_cast<std::size_t>(sampler.channels())); // linear light
   for (const double x : {0.5, 100.25, 12345.75}) {
     sampler.sample(tilepack::from_texels(x, 64), tilepack::from_texels(7.5, 64), 0.5,
                    tilepack::Filter::trilinear, texel);
