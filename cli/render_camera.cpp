@@ -138,7 +138,7 @@ void refuse_window_options(const CLI::App& app) {
 }
 
 int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
-                  const std::string& filter, const std::string& output, Console& console) {
+                  const std::string& filter, Border border, const std::string& output, Console& console) {
   if (arguments.span_error != 0 && !(arguments.span_error > 0 && arguments.span_error <= 1000)) {
     throw Error(ErrorKind::usage, "--span-error",
                 fmt::format("{} pixels; it must be above 0, at most 1000", arguments.span_error));
@@ -151,6 +151,7 @@ int render_camera(const CameraArguments& arguments, const Pack& pack, int map, c
                       precision_of(arguments.precision),
                       arguments.span_error};
   options.filter = view_filter_of(filter);
+  options.border = border;
   options.background = parsed_background(arguments.background);
   const ViewRenderer renderer(pack, map, scene_of(arguments), camera_of(*arguments.camera),
                               parsed_size(arguments.size), options, target);

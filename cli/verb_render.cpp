@@ -28,6 +28,7 @@ struct RenderArguments {
   std::string map;
   std::optional<std::string> rect;
   std::string filter = "trilinear";
+  std::string border = "wrap";
   std::string encoding;
   int level = 0;
   double scale = 1;
@@ -45,10 +46,18 @@ int map_number(const Pack& pack, const std::string& name) {
   throw Error(ErrorKind::usage, "--map", fmt::format("the pack has no map '{}'; it has {}", name, names));
 }
 
+constexpr const char* elliptical = "elliptical"; // no Filter: it takes a footprint in place of a level
+
 Filter filter_of(const std::string& name) {
+  if (name == elliptical) return Filter::trilinear;
   if (const auto filter = filter_named(name)) return *filter;
   throw Error(ErrorKind::usage, "--filter",
-              fmt::format("'{}' is no filter; there are nearest, bilinear and trilinear", name));
+              fmt::format("'{}' is no filter; there are nearest, bilinear, trilinear and elliptical", name));
+}
+
+Border border_of(const std::string& name) {
+  if (const auto border = border_named(name)) return *border;
+  throw Error(ErrorKind::usage, "--border", fmt::format("'{}'; it is wrap, clamp or mirror", name));
 }
 
 // X,Y,W,H, whole numbers, as far as a window can reach.
@@ -68,8 +77,7 @@ VirtualRect parsed_rect(const std::string& text) {
                 fmt::format("'{}' is no window; give four whole numbers X,Y,WIDTH,HEIGHT in texels", text));
   const auto [x, y, width, height] = numbers;
   if (std::min(x, y) < -farthest || std::max(x, y) > farthest)
-    throw Error(ErrorKind::usage, "--rect",
-                fmt::format("{},{}; X and Y may be -2^50..2^50 (the texture wraps)", x, y));
+    throw Error(ErrorKind::usage, "--rect", fmt::format("{},{}; X and Y may be -2^50..2^50", x, y));
   if (std::min(width, height) < 1 || std::max(width, height) > std::int64_t{1} << 30)
     throw Error(ErrorKind::usage, "--rect",
                 fmt::format("{} x {} texels; width and height may be 1..2^30", width, height));
@@ -112,12 +120,14 @@ RenderTarget target_for(const std::string& file, const PackedMap& map, const std
 
 int run_render(const RenderArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
+  const Border border = border_of(arguments.border);
   if (arguments.view.camera) {
     const Pack pack = read_pack(arguments.pack);
     const int map = map_number(pack, arguments.map);
     const RenderTarget target =
         target_for(arguments.output, pack.maps[static_cast<std::size_t>(map)], arguments.encoding);
-    return render_camera(arguments.view, pack, map, target, arguments.filter, arguments.output, console);
+    return render_camera(arguments.view, pack, map, target, arguments.filter, border, arguments.output,
+                         console);
   }
   const Filter filter = filter_of(arguments.filter);
   std::optional<VirtualRect> rect;
@@ -132,8 +142,9 @@ int run_render(const RenderArguments& arguments, Console& console) {
                 fmt::format("{}; the pack has levels 0..{}", arguments.level, levels - 1));
   const RenderTarget target = target_for(arguments.output, packed, arguments.encoding);
 
-  const View view{rect ? *rect : default_rect(pack, arguments.level), arguments.level, arguments.scale,
-                  filter};
+  View view{rect ? *rect : default_rect(pack, arguments.level), arguments.level, arguments.scale, filter};
+  view.border = border;
+  view.elliptical = arguments.filter == elliptical;
   const Renderer renderer(pack, map, view, target);
   const Size size = renderer.size();
   const std::size_t row_values =
@@ -161,12 +172,17 @@ Action declare_render(CLI::App& app) {
   app.add_option("--map", a->map, "name of the map (default: the first)")->type_name("NAME");
   app.add_option(
          "--rect", a->rect,
-         "window in texels of the level, anywhere: the texture wraps (default: the first 8 x 8 tiles)")
+         "window in texels of the level, anywhere, also beyond the border (default: the first 8 x 8 tiles)")
       ->type_name("X,Y,W,H");
   app.add_option("--level", a->level, "mip level, 0 the finest (default 0)")->type_name("L");
-  app.add_option("--filter", a->filter,
-                 "nearest, bilinear or trilinear, which reads the level that fits the scale (default); for "
-                 "camera views trilinear or anisotropic")
+  app.add_option(
+         "--filter", a->filter,
+         "nearest, bilinear, trilinear, which reads the level that fits the scale (default), or elliptical, "
+         "the mean over what a pixel covers; for camera views trilinear, anisotropic or elliptical")
+      ->type_name("NAME");
+  app.add_option("--border", a->border,
+                 "what lies beyond the virtual texture: wrap (default), clamp, which repeats its outermost "
+                 "texels, or mirror")
       ->type_name("NAME");
   app.add_option("--scale", a->scale,
                  "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")

@@ -2,12 +2,14 @@
 
 #include "tilepack/image/wrap.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tilepack {
 namespace {
 
 constexpr double tile_limit = 0x1p62;
+constexpr double below_one = 1.0 - 0x1p-53;
 
 // Unsigned, since a caller may hand in any tile: going round the 64-bit range is defined, overflow is not.
 std::int64_t plus(std::int64_t a, std::int64_t b) {
@@ -38,6 +40,57 @@ TileCoordinate from_texels(std::int64_t whole, double rest, int tile_side) {
   const std::int64_t texel = wrapped(whole, static_cast<std::int64_t>(tile_side));
   return normalised(
       {(whole - texel) / tile_side, (static_cast<double>(texel) + rest) / static_cast<double>(tile_side)});
+}
+
+std::string_view name_of(Border border) {
+  switch (border) {
+  case Border::wrap:
+    return "wrap";
+  case Border::clamp:
+    return "clamp";
+  case Border::mirror:
+    break;
+  }
+  return "mirror";
+}
+
+std::optional<Border> border_named(std::string_view name) {
+  for (const Border border : {Border::wrap, Border::clamp, Border::mirror})
+    if (name == name_of(border)) return border;
+  return {};
+}
+
+std::int64_t within(std::int64_t index, std::int64_t count, Border border) {
+  switch (border) {
+  case Border::wrap:
+    return wrapped(index, count);
+  case Border::clamp:
+    return std::clamp<std::int64_t>(index, 0, count - 1);
+  case Border::mirror:
+    break;
+  }
+  const std::int64_t turned = wrapped(index, 2 * count);
+  return turned < count ? turned : 2 * count - 1 - turned;
+}
+
+TileCoordinate within(TileCoordinate coordinate, std::int64_t tiles, Border border) {
+  const TileCoordinate at = normalised(coordinate);
+  const TileCoordinate far_end{tiles - 1, below_one};
+  switch (border) {
+  case Border::wrap:
+    return {wrapped(at.tile, tiles), at.fraction};
+  case Border::clamp:
+    return at.tile < 0 ? TileCoordinate{} : at.tile < tiles ? at : far_end;
+  case Border::mirror:
+    break;
+  }
+  const std::int64_t turned = wrapped(at.tile, 2 * tiles);
+  if (turned < tiles) return {turned, at.fraction};
+  // Counted from 2 * tiles downwards: a whole number is the start of its own tile, not the end of the one
+  // before.
+  const double rest = 1.0 - at.fraction;
+  if (rest < 1.0) return {2 * tiles - 1 - turned, rest};
+  return turned == tiles ? far_end : TileCoordinate{2 * tiles - turned, 0.0};
 }
 
 } // namespace tilepack

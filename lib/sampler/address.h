@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace tilepack {
 
@@ -21,5 +23,23 @@ TileCoordinate from_texels(double texels, int tile_side);
 
 /// The place whole + rest texels from the origin: exact in `whole`, however large.
 TileCoordinate from_texels(std::int64_t whole, double rest, int tile_side);
+
+/// What lies beyond the border of the virtual texture.
+enum class Border {
+  wrap,   ///< the texture again: 0 1 2 | 0 1 2
+  clamp,  ///< its outermost texels: 0 1 2 | 2 2 2
+  mirror, ///< the texture turned round: 0 1 2 | 2 1 0, and so on
+};
+
+std::string_view name_of(Border border); ///< "wrap", "clamp", "mirror"
+std::optional<Border> border_named(std::string_view name);
+
+/// Number `index`, any, of a row of `count` >= 1 texels or tiles that goes on as `border` says: 0..count-1.
+std::int64_t within(std::int64_t index, std::int64_t count, Border border);
+
+/// The place of a texture of `tiles` tiles that shows at `coordinate`, any: normalised, 0 <= tile < tiles.
+/// Clamped places lie on the border itself; the far one, where a tile more would begin, as near below it as a
+/// double can be.
+TileCoordinate within(TileCoordinate coordinate, std::int64_t tiles, Border border);
 
 } // namespace tilepack

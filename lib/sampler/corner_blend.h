@@ -29,13 +29,11 @@ public:
     return corner_weight(fraction_x, fraction_y, texels.tile_size(level), blend_width);
   }
 
-  /// What the filter reads for a point of cell (x, y), found through the corner nearest to the point.
+  /// The cell of pack_texels() that stands for cell (x, y) at a point of it, found through the corner nearest
+  /// to the point.
   PackTexels::Place place(std::int64_t cell_x, std::int64_t cell_y, double fraction_x,
                           double fraction_y) const;
-  PackTexels::Taps taps(int level, PackTexels::Place place, double fraction_x, double fraction_y,
-                        Filter filter) const {
-    return texels.taps(level, place, fraction_x, fraction_y, filter);
-  }
+  const PackTexels& pack_texels() const { return texels; }
 
 private:
   const Pack* pack;

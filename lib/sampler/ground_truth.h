@@ -3,7 +3,9 @@
 #include "tilepack/pack/pack.h"
 #include "tilepack/sampler/address.h"
 #include "tilepack/sampler/filter.h"
+#include "tilepack/sampler/footprint.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,21 +20,25 @@ class GroundTruth {
 public:
   /// The true mip chain: each level a box of level 0, within tiles and hence within the virtual texture, not
   /// sanitized and not rounded. Normals, roughness and alpha are averaged as mip_chain does.
-  static GroundTruth of_level_0(const Pack& pack, int map);
+  static GroundTruth of_level_0(const Pack& pack, int map, Border border = Border::wrap);
 
   /// The levels as the pack stores them: all that is left to differ from ReferenceSampler is the neighbours.
-  static GroundTruth of_stored_levels(const Pack& pack, int map);
+  static GroundTruth of_stored_levels(const Pack& pack, int map, Border border = Border::wrap);
 
   int channels() const;
   int levels() const;
 
   /// As ReferenceSampler::sample: linear light, doubles, the same order of sums.
   void sample(TileCoordinate x, TileCoordinate y, double level, Filter filter, std::span<double> out) const;
+  void sample(TileCoordinate x, TileCoordinate y, const Footprint& footprint, std::span<double> out) const;
 
 private:
-  GroundTruth(const Pack& pack, int map, std::vector<std::vector<Image>> encoded_tiles);
+  GroundTruth(const Pack& pack, int map, Border border, std::vector<std::vector<Image>> encoded_tiles);
 
-  const Pack* pack;                      // must outlive this
+  std::span<const float> texel(int level, std::int64_t x, std::int64_t y) const;
+
+  const Pack* pack; // must outlive this
+  Border border;
   std::vector<std::vector<Image>> tiles; // level → tile id, linear light
   bool alpha = false;
 };

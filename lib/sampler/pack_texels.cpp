@@ -117,6 +117,15 @@ PackTexels::Taps PackTexels::taps(int level, Place place, double fraction_x, dou
   return result;
 }
 
+PackTexels::Taps PackTexels::texel_taps(int level, Place place, int i, int j) const {
+  const Size tile = tile_size(level);
+  if (turned) return taps(level, place, (i + 0.5) / tile.width, (j + 0.5) / tile.height, Filter::bilinear);
+  Taps result;
+  result.taps[0] = {texel(level, place, i, j), 1.0};
+  result.count = 1;
+  return result;
+}
+
 int PackTexels::channels() const {
   return map->channels;
 }

@@ -54,6 +54,10 @@ public:
   /// 0 <= x, y < 1 of its sides. Weights add up to 1 and none is 0.
   Taps taps(int level, Place place, double fraction_x, double fraction_y, Filter filter) const;
 
+  /// What stands for texel (i, j) of the tile's own rows, any integers: that texel; in a rotated layout,
+  /// where tiles have none, what lies at its centre, bilinearly.
+  Taps texel_taps(int level, Place place, int i, int j) const;
+
   int channels() const;
   int levels() const;                      ///< stored in the pack, whether decoded or not
   Size tile_size(int level) const;         ///< texels

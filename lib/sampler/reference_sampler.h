@@ -3,6 +3,7 @@
 #include "tilepack/sampler/address.h"
 #include "tilepack/sampler/corner_blend.h"
 #include "tilepack/sampler/filter.h"
+#include "tilepack/sampler/footprint.h"
 #include "tilepack/sampler/pack_texels.h"
 
 #include <cstdint>
@@ -10,6 +11,22 @@
 #include <span>
 
 namespace tilepack {
+
+/// The virtual texture's extent, and how it goes on beyond.
+struct VirtualEdge {
+  VirtualSize size; ///< in tiles
+  Border border = Border::wrap;
+};
+
+/// A point of the virtual texture whose tile has been found: `place` is that of the cell that holds it, the
+/// fractions (0 <= fraction < 1) tell where it lies in it.
+struct TilePoint {
+  std::int64_t cell_x = 0; ///< within the virtual texture unless that wraps
+  std::int64_t cell_y = 0;
+  PackTexels::Place place;
+  double x = 0; ///< fractions of the tile's sides
+  double y = 0;
+};
 
 /// Looks a pack up in double precision along one obvious path: slow, and what everything fast is held
 /// against.
@@ -28,38 +45,37 @@ namespace tilepack {
 ///     lost tells how much they vary;
 ///   * everything else is averaged as it is.
 ///
-/// Defined for any coordinate and level: see normalised() and level_blend().
+/// Defined for any coordinate, level and footprint: see within(), level_blend() and ellipse_of().
 class ReferenceSampler {
 public:
   /// `pack` must outlive the sampler. map: index into pack.maps (Error, usage, if there is none such).
-  /// corner_width: see corner_weight; 0 leaves the corner pack aside.
-  ReferenceSampler(const Pack& pack, int map, double corner_width = default_corner_width)
-      : texels(pack, map) {
-    if (pack.corner_pack && corner_width > 0) corners.emplace(pack, map, corner_width);
-  }
+  /// corner_width: see corner_weight; 0 leaves the corner pack aside. Beyond the virtual texture it goes on
+  /// as `border` says: a filter that meets a border which doesn't wrap reads nothing beyond it.
+  ReferenceSampler(const Pack& pack, int map, double corner_width = default_corner_width,
+                   Border border = Border::wrap);
 
   int channels() const { return texels.channels(); }
 
   /// The linear value at (x, y). `level` 0 is the finest. `out` has channels() entries.
   void sample(TileCoordinate x, TileCoordinate y, double level, Filter filter, std::span<double> out) const;
 
+  /// Anisotropic: the mean over the ellipse that a pixel covers, in the two levels next to level_of() it,
+  /// blended. Constant time: at most about 51500 texels a level, and that only of the coarsest.
+  void sample(TileCoordinate x, TileCoordinate y, const Footprint& footprint, std::span<double> out) const;
+
 private:
+  TilePoint point_at(TileCoordinate x, TileCoordinate y) const;
+
   PackTexels texels;
   std::optional<CornerTexels> corners;
+  VirtualEdge edge;
 };
 
-/// A point of the virtual texture whose tile has been found: `place` is that of the cell that holds it, the
-/// fractions (0 <= fraction < 1) tell where it lies in it.
-struct TilePoint {
-  std::int64_t cell_x = 0;
-  std::int64_t cell_y = 0;
-  PackTexels::Place place;
-  double x = 0; ///< fractions of the tile's sides
-  double y = 0;
-};
-
-/// The same lookup from there. `corners` may be null.
-void sample_tile(const PackTexels& texels, const CornerTexels* corners, const TilePoint& point,
-                 const LevelBlend& levels, Filter filter, std::span<double> out);
+/// The same lookups from a point. `corners` may be null.
+void sample_tile(const PackTexels& texels, const CornerTexels* corners, const VirtualEdge& edge,
+                 const TilePoint& point, const LevelBlend& levels, Filter filter, std::span<double> out);
+void sample_tile(const PackTexels& texels, const CornerTexels* corners, const VirtualEdge& edge,
+                 const TilePoint& point, const LevelBlend& levels, const FootprintEllipse& ellipse,
+                 std::span<double> out);
 
 } // namespace tilepack

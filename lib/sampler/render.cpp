@@ -38,8 +38,15 @@ const PackedMap& map_of(const Pack& pack, int map, int level) {
   return result;
 }
 
+// A pixel steps 1 / scale texels of the level, which are 2^level of the finest.
+FootprintEllipse covered_by_pixel(const View& view, Size tile) {
+  const double step = std::ldexp(1.0 / view.scale, view.level);
+  return ellipse_of({step / tile.width, 0, 0, step / tile.height}, tile);
+}
+
 // Texels of `level` are 1 / scale pixels wide; a level up doubles them.
-LevelBlend levels_for(const View& view, int stored_levels) {
+LevelBlend levels_for(const View& view, int stored_levels, const FootprintEllipse& pixel) {
+  if (view.elliptical) return level_blend(level_of(pixel), stored_levels, Filter::trilinear);
   if (view.filter != Filter::trilinear) return {view.level, view.level, 0.0};
   return level_blend(view.level - exact_log2(view.scale), stored_levels, view.filter);
 }
@@ -68,11 +75,10 @@ Size output_size(const View& view) {
 
 Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, const RenderTarget& of_target)
     : pack(&of_pack), map(&map_of(of_pack, map_index, of_view.level)), view(of_view), target(of_target),
-      picture(output_size(of_view)),
-      texels(of_pack, map_index, levels_for(of_view, static_cast<int>(map->levels.size())).fine,
-             levels_for(of_view, static_cast<int>(map->levels.size())).coarse),
-      levels(levels_for(of_view, texels.levels())) {
-  if (view.scale == 1.0) {
+      picture(output_size(of_view)), pixel(covered_by_pixel(of_view, of_pack.tile_size)),
+      levels(levels_for(of_view, static_cast<int>(map->levels.size()), pixel)),
+      texels(of_pack, map_index, levels.fine, levels.coarse) {
+  if (copies_texels()) {
     Image level = map->levels[static_cast<std::size_t>(view.level)];
     if (target.encoding != map->encoding)
       level = from_linear(to_linear(level, map->encoding), target.encoding);
@@ -85,12 +91,14 @@ Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, cons
   const Size tile = texels.tile_size(view.level);
   columns.resize(static_cast<std::size_t>(picture.width));
   for (int i = 0; i < picture.width; ++i)
-    columns[static_cast<std::size_t>(i)] = from_texels(view.rect.x, (i + 0.5) / view.scale, tile.width);
+    columns[static_cast<std::size_t>(i)] = within(
+        from_texels(view.rect.x, (i + 0.5) / view.scale, tile.width), pack->mapping.size.width, view.border);
 }
 
 Image Renderer::rows(int first, int count) const {
-  if (view.scale == 1.0)
-    return virtual_texture(*pack, stored, {view.rect.x, view.rect.y + first, picture.width, count});
+  if (copies_texels())
+    return virtual_texture(*pack, stored, {view.rect.x, view.rect.y + first, picture.width, count},
+                           view.border);
   Image band(picture.width, count, channels());
   tbb::parallel_for(0, count, [&](int row) { render_row(first + row, band.row(row)); });
   return band;
@@ -98,12 +106,15 @@ Image Renderer::rows(int first, int count) const {
 
 void Renderer::render_row(int row, std::span<float> out) const {
   const Size tile = texels.tile_size(view.level);
-  const TileCoordinate y = from_texels(view.rect.y, (row + 0.5) / view.scale, tile.height);
+  const VirtualEdge edge{pack->mapping.size, view.border};
+  const TileCoordinate y =
+      within(from_texels(view.rect.y, (row + 0.5) / view.scale, tile.height), edge.size.height, view.border);
   const auto channel_count = static_cast<std::size_t>(channels());
   // Channels that carry light: as in encoding.h, the last of 2 or 4 does not.
   const std::size_t encoded =
       target.encoding == Encoding::srgb ? channel_count - (channel_count % 2 == 0 ? 1 : 0) : 0;
-  const bool renormal = map->role == Role::normal && channel_count >= 3 && view.filter != Filter::nearest;
+  const bool renormal =
+      map->role == Role::normal && channel_count >= 3 && (view.elliptical || view.filter != Filter::nearest);
   std::array<double, 4> buffer{};
   const std::span<double> value(buffer.data(), channel_count);
 
@@ -114,7 +125,10 @@ void Renderer::render_row(int row, std::span<float> out) const {
     if (i == 0 || x.tile != columns[i - 1].tile)
       point = {x.tile, y.tile, texels.place(x.tile, y.tile), 0, y.fraction};
     point.x = x.fraction;
-    sample_tile(texels, corners ? &*corners : nullptr, point, levels, view.filter, value);
+    if (view.elliptical)
+      sample_tile(texels, corners ? &*corners : nullptr, edge, point, levels, pixel, value);
+    else
+      sample_tile(texels, corners ? &*corners : nullptr, edge, point, levels, view.filter, value);
     if (renormal) renormalise(value);
     for (std::size_t c = 0; c < encoded; ++c) value[c] = linear_to_srgb(value[c]);
     for (std::size_t c = 0; c < channel_count; ++c)

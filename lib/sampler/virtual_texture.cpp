@@ -12,11 +12,11 @@
 namespace tilepack {
 namespace {
 
-// One row of the window: cell by cell, since within a cell the texels are consecutive in the tile too.
-void copy_row(const Pack& pack, const std::vector<Image>& tiles, const VirtualRect& rect, int row,
+// One row of the window that lies in row y of the texture: cell by cell, since within a cell the texels are
+// consecutive in the tile too.
+void copy_row(const Pack& pack, const std::vector<Image>& tiles, const VirtualRect& rect, std::int64_t y,
               std::span<float> out) {
   const Size tile = tiles.front().size();
-  const std::int64_t y = rect.y + row;
   const int texel_y = static_cast<int>(wrapped(y, static_cast<std::int64_t>(tile.height)));
   const std::int64_t cell_y = (y - texel_y) / tile.height;
   const auto channels = static_cast<std::size_t>(tiles.front().channels());
@@ -33,15 +33,36 @@ void copy_row(const Pack& pack, const std::vector<Image>& tiles, const VirtualRe
   }
 }
 
+// The same where the texture doesn't wrap, texel by texel.
+void copy_bordered_row(const Pack& pack, const std::vector<Image>& tiles, const VirtualRect& rect,
+                       std::int64_t y, Border border, std::span<float> out) {
+  const Size tile = tiles.front().size();
+  const auto channels = static_cast<std::size_t>(tiles.front().channels());
+  for (int column = 0; column < rect.width; ++column) {
+    const std::int64_t x = within(rect.x + column, pack.mapping.size.width * tile.width, border);
+    const int id = tile_at(pack.mapping, pack.colors, x / tile.width, y / tile.height);
+    const auto from = tiles[static_cast<std::size_t>(id)].texel(static_cast<int>(x % tile.width),
+                                                                static_cast<int>(y % tile.height));
+    std::copy(from.begin(), from.end(), out.subspan(static_cast<std::size_t>(column) * channels).begin());
+  }
+}
+
 } // namespace
 
-Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect) {
+Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect, Border border) {
   if (rect.width < 1 || rect.height < 1)
     throw Error(ErrorKind::usage, "rect",
                 std::to_string(rect.width) + " x " + std::to_string(rect.height) +
                     " texels; both sides must be at least 1");
   Image result(rect.width, rect.height, tiles.at(0).channels());
-  tbb::parallel_for(0, rect.height, [&](int row) { copy_row(pack, tiles, rect, row, result.row(row)); });
+  const std::int64_t height = pack.mapping.size.height * tiles.at(0).height();
+  tbb::parallel_for(0, rect.height, [&](int row) {
+    const std::int64_t y = within(rect.y + row, height, border);
+    if (border == Border::wrap)
+      copy_row(pack, tiles, rect, y, result.row(row));
+    else
+      copy_bordered_row(pack, tiles, rect, y, border, result.row(row));
+  });
   return result;
 }
 

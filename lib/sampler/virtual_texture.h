@@ -1,13 +1,14 @@
 #pragma once
 
 #include "tilepack/pack/pack.h"
+#include "tilepack/sampler/address.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace tilepack {
 
-/// A window of the virtual texture in texels of one level: any x and y, the texture wraps.
+/// A window of the virtual texture in texels of one level: any x and y.
 struct VirtualRect {
   std::int64_t x = 0;
   std::int64_t y = 0;
@@ -23,6 +24,7 @@ struct VirtualRect {
 Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect);
 
 /// The same from `tiles`, one image a tile id, all of one size: `rect` is in their texels.
-Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect);
+Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect,
+                      Border border = Border::wrap);
 
 } // namespace tilepack

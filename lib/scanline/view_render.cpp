@@ -21,7 +21,7 @@ constexpr int band_rows = scanlines_side_by_side;
 ViewRenderer::ViewRenderer(const Pack& pack, int map, const Scene& of_scene, const Camera& camera,
                            Size picture, const ViewOptions& of_options, const RenderTarget& target)
     : options(of_options), scene(of_scene, Projection(camera, picture)),
-      texture(pack, map, target, of_options.filter) {
+      texture(pack, map, target, of_options.filter, of_options.border) {
   check_reseed(options.stepping.options);
   const auto count = static_cast<std::size_t>(texture.channels());
   if (options.background.empty()) options.background.assign(count, 0.0f);

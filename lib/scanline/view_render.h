@@ -7,6 +7,7 @@ namespace tilepack {
 struct ViewOptions {
   ViewStepping stepping;
   ViewFilter filter = ViewFilter::trilinear;
+  Border border = Border::wrap;  ///< of the virtual texture
   std::vector<float> background; ///< values as stored, one a channel; empty: 0
 };
 

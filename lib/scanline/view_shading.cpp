@@ -61,18 +61,27 @@ void renormalise(std::span<double> normal) {
 } // namespace
 
 std::string_view name_of(ViewFilter filter) {
-  return filter == ViewFilter::trilinear ? "trilinear" : "anisotropic";
+  switch (filter) {
+  case ViewFilter::trilinear:
+    return "trilinear";
+  case ViewFilter::anisotropic:
+    return "anisotropic";
+  case ViewFilter::elliptical:
+    break;
+  }
+  return "elliptical";
 }
 
 ViewFilter view_filter_of(const std::string& name) {
-  for (ViewFilter filter : {ViewFilter::trilinear, ViewFilter::anisotropic}) {
+  for (ViewFilter filter : {ViewFilter::trilinear, ViewFilter::anisotropic, ViewFilter::elliptical}) {
     if (name == name_of(filter)) return filter;
   }
   throw Error(ErrorKind::usage, "filter",
-              "'" + name + "' is no filter of camera views; there are trilinear and anisotropic");
+              "'" + name + "' is no filter of camera views; there are trilinear, anisotropic and elliptical");
 }
 
 Probes probes_for(const Footprint& f, Size tile, ViewFilter filter) {
+  if (filter == ViewFilter::elliptical) return {1, level_of(ellipse_of(f, tile)), 0, 0};
   // J = (ux uy; vx vy) in texels; J Jᵀ = (a b; b c) has the squares of the half axes as eigenvalues.
   const double ux = f.u_across * tile.width, uy = f.u_down * tile.width;
   const double vx = f.v_across * tile.height, vy = f.v_down * tile.height;
@@ -99,8 +108,10 @@ Probes probes_for(const Footprint& f, Size tile, ViewFilter filter) {
   return probes;
 }
 
-ViewTexture::ViewTexture(const Pack& pack, int map, const RenderTarget& of_target, ViewFilter of_filter)
-    : sampler(pack, map), target(of_target), filter(of_filter), tile(pack.tile_size) {
+ViewTexture::ViewTexture(const Pack& pack, int map, const RenderTarget& of_target, ViewFilter of_filter,
+                         Border border)
+    : sampler(pack, map, default_corner_width, border), target(of_target), filter(of_filter),
+      tile(pack.tile_size) {
   const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
   coarsest = static_cast<int>(packed.levels.size()) - 1;
   normals = packed.role == Role::normal && packed.channels >= 3;
@@ -111,7 +122,8 @@ ViewTexture::ViewTexture(const Pack& pack, int map, const RenderTarget& of_targe
 void ViewTexture::shade_pixel(const ViewPixels& pixels, std::size_t at, std::span<double> value) const {
   const ViewSpan& view = pixels.spans[static_cast<std::size_t>(pixels.span[at])];
   const double u = pixels.u[at], v = pixels.v[at];
-  const Probes probes = probes_for(footprint(view, pixels.step[at], u, v), tile, filter);
+  const Footprint covered = footprint(view, pixels.step[at], u, v);
+  const Probes probes = probes_for(covered, tile, filter);
   const double fade = std::clamp((probes.level - coarsest) / fade_levels, 0.0, 1.0);
   std::fill(value.begin(), value.end(), 0.0);
   if (fade < 1) {
@@ -122,7 +134,10 @@ void ViewTexture::shade_pixel(const ViewPixels& pixels, std::size_t at, std::spa
       const Span& span = view.span;
       const TileCoordinate x{span.u.tile, span.u.fraction + (u + t * probes.u_axis)};
       const TileCoordinate y{span.v.tile, span.v.fraction + (v + t * probes.v_axis)};
-      sampler.sample(x, y, probes.level, Filter::trilinear, probe);
+      if (filter == ViewFilter::elliptical)
+        sampler.sample(x, y, covered, probe);
+      else
+        sampler.sample(x, y, probes.level, Filter::trilinear, probe);
       add_weighed(value, probe, (1 - fade) / probes.count, alpha);
     }
   }

@@ -12,9 +12,10 @@ namespace tilepack {
 enum class ViewFilter {
   trilinear,   ///< one lookup, blurred to the long side of a pixel's footprint
   anisotropic, ///< up to 16 trilinear lookups along the long side, each blurred to the short one
+  elliptical,  ///< the mean over the footprint's ellipse, texel by texel: slow, to hold the others against
 };
 
-std::string_view name_of(ViewFilter filter);        ///< "trilinear", "anisotropic"
+std::string_view name_of(ViewFilter filter);        ///< "trilinear", "anisotropic", "elliptical"
 ViewFilter view_filter_of(const std::string& name); ///< Error (usage) for an unknown name
 
 /// The lookups that stand for a pixel: `probes` of them, `level` coarse, at
@@ -27,7 +28,8 @@ struct Probes {
 
 /// A pixel maps to a parallelogram of the texture; what a filter must cover is the ellipse of the same
 /// Jacobian, with half axes its singular values: so the result does not depend on how the camera is turned
-/// about its view, as the longer of the two derivatives would.
+/// about its view, as the longer of the two derivatives would. For ViewFilter::elliptical one probe, which
+/// the sampler spreads over the ellipse itself.
 Probes probes_for(const Footprint& footprint, Size tile, ViewFilter filter);
 
 /// Textures pixels from a pack in double precision, in linear light, with the ReferenceSampler.
@@ -38,7 +40,8 @@ Probes probes_for(const Footprint& footprint, Size tile, ViewFilter filter);
 class ViewTexture {
 public:
   /// `pack` must outlive this. Throws Error (usage) for a map that isn't there.
-  ViewTexture(const Pack& pack, int map, const RenderTarget& target, ViewFilter filter);
+  ViewTexture(const Pack& pack, int map, const RenderTarget& target, ViewFilter filter,
+              Border border = Border::wrap);
 
   int channels() const { return sampler.channels(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/sampler/footprint.h"
 #include "tilepack/scanline/coverage.h"
 #include "tilepack/scanline/screen_map.h"
 #include "tilepack/scanline/span_batch.h"
@@ -23,12 +24,6 @@ struct ViewSpan {
   double du_down = 0;  ///< at n = 0 the derivative of u towards the next row, tiles a pixel
   double dv_down = 0;
   double nearness_down = 0; ///< the derivative of nearness towards the next row, over nearness
-};
-
-/// How texture coordinates change from pixel to pixel, tiles a pixel.
-struct Footprint {
-  double u_across = 0, v_across = 0; ///< to the right
-  double u_down = 0, v_down = 0;     ///< to the next row
 };
 
 /// At the pixel whose offset from the span's start is (u, v), pixel number n of the span. No division, but

@@ -70,7 +70,8 @@ class RenderCamera(unittest.TestCase):
 
     def test_same_bytes_for_any_number_of_threads(self):
         for options in (["--span", "newton"], ["--span", "euler2", "--span-error", "0.1"],
-                        ["--filter", "anisotropic", "--span", "affine", "--reseed", "8"]):
+                        ["--filter", "anisotropic", "--span", "affine", "--reseed", "8"],
+                        ["--filter", "elliptical", "--border", "mirror"]):
             view = ["--camera", ACROSS, "--size", "200x150", *options]
             one = self.picture(*view, "--jobs", "1")
             self.assertEqual(one, self.picture(*view, "--jobs", "4"))

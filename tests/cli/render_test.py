@@ -133,6 +133,32 @@ class Render(unittest.TestCase):
             rows, _, _ = self.rendered("--level", str(level), "--rect=%d,%d,%d,%d" % rect)
             self.assert_window(rows, "color", level, rect, 3)
 
+    def test_what_lies_beyond_the_border(self):
+        width, height = WIDTH * TILE, HEIGHT * TILE
+        places = {
+            "wrap": lambda i, n: i % n,
+            "clamp": lambda i, n: min(max(i, 0), n - 1),
+            "mirror": lambda i, n: i % (2 * n) if i % (2 * n) < n else 2 * n - 1 - i % (2 * n),
+        }
+        for border, place in places.items():
+            rows, _, _ = self.rendered("--border", border, "--rect=-9,-5,150,110")
+            for j in (0, 3, 5, 50, 109):
+                wanted = []
+                for i in range(150):
+                    wanted += self.pack.texel("color", 0, place(i - 9, width), place(j - 5, height), 3)
+                self.assertEqual(rows[j], wanted, "%s, row %d" % (border, j))
+
+    def test_elliptical_at_scale_1_is_the_texels_and_far_away_the_mean(self):
+        rows, _, _ = self.rendered("--rect=3,4,20,10", "--filter", "elliptical")
+        for j, row in enumerate(rows):  # by way of linear light: a code off at most
+            for got, wanted in zip(row, sum((self.pack.texel("color", 0, 3 + i, 4 + j, 3) for i in range(20)), [])):
+                self.assertLessEqual(abs(got - wanted), 1)
+        rows, _, _ = self.rendered("--rect=0,0,3200,1600", "--scale", "0.01", "--filter", "elliptical")
+        self.assertEqual((len(rows), len(rows[0])), (16, 96))
+        for c in range(3):
+            column = [value for row in rows for value in row[c::3]]
+            self.assertLess(max(column) - min(column), 60)  # texels of the coarsest level span 0..255
+
     def test_rect_may_be_a_separate_argument(self):
         rows, _, _ = self.rendered("--rect", "-3,-4,9,8")
         self.assert_window(rows, "color", 0, (-3, -4, 9, 8), 3)
@@ -207,7 +233,8 @@ class Render(unittest.TestCase):
             self.refused(1, "--scale", scale)
 
     def test_bad_filter_and_encoding(self):
-        self.refused(1, "--filter", "cubic", says="nearest, bilinear and trilinear")
+        self.refused(1, "--border", "repeat", says="wrap, clamp or mirror")
+        self.refused(1, "--filter", "cubic", says="nearest, bilinear, trilinear and elliptical")
         self.refused(1, "--encoding", "rec709", says="srgb or linear")
 
     def test_output_that_is_no_picture(self):
