@@ -1,5 +1,9 @@
 #include "tilepack/mip/downsample.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <cstddef>
 
 namespace tilepack {
@@ -37,7 +41,11 @@ void halve_rows_by_alpha(const float* north, const float* south, float* to, std:
 Image halved(const Image& image, Weighting weighting) {
   Image result(image.width() / 2, image.height() / 2, image.channels());
   const std::size_t width = static_cast<std::size_t>(result.width());
-  for (int y = 0; y < result.height(); ++y) {
+  // Large images alone are worth a task for each so many rows.
+  constexpr std::size_t values_a_task = std::size_t{1} << 16;
+  const std::size_t rows =
+      std::max<std::size_t>(1, values_a_task / std::max<std::size_t>(1, image.row(0).size()));
+  const auto halve_row = [&](int y) {
     const float* north = image.row(2 * y).data();
     const float* south = image.row(2 * y + 1).data();
     float* to = result.row(y).data();
@@ -51,7 +59,11 @@ Image halved(const Image& image, Weighting weighting) {
       halve_rows<3>(north, south, to, width);
     else
       halve_rows<4>(north, south, to, width);
-  }
+  };
+  using Range = tbb::blocked_range<int>;
+  tbb::parallel_for(Range(0, result.height(), rows), [&](const Range& some) {
+    for (int y = some.begin(); y < some.end(); ++y) halve_row(y);
+  });
   return result;
 }
 

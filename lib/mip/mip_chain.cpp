@@ -55,19 +55,16 @@ void sanitize(const TileColors& colors, Size size, MipMode mode, Weighting weigh
                     [&](std::size_t i) { share(groups[i], weighting, tiles); });
 }
 
-// level → tile id → values that may be averaged further; level 0 is left out. Means of unit vectors keep
-// their length here, else each level would weigh its children differently from their area.
+// Level → tile id → values that may be averaged further, level 0 left out.
 using Levels = std::vector<std::vector<Image>>;
 
-Levels box_levels(const TileMap& map, int levels) {
+// The levels of one tile, level 0 left out. Means of unit vectors keep their length here, else each level
+// would weigh its children differently from their area.
+std::vector<Image> box_levels(const TileMap& map, std::size_t id, std::size_t levels) {
   const Weighting weighting = weighting_of(map);
-  Levels boxes(as_size(levels));
-  for (std::size_t level = 1; level < boxes.size(); ++level) boxes[level].resize(map.tiles.size());
-  tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
-    boxes[1][id] = halved_decoded(map.tiles[id], map);
-    for (std::size_t level = 2; level < boxes.size(); ++level)
-      boxes[level][id] = halved(boxes[level - 1][id], weighting);
-  });
+  std::vector<Image> boxes(levels);
+  boxes[1] = halved_decoded(map.tiles[id], map);
+  for (std::size_t level = 2; level < levels; ++level) boxes[level] = halved(boxes[level - 1], weighting);
   return boxes;
 }
 
@@ -124,33 +121,46 @@ std::vector<TileMap> coarser_levels(const TileSet& set, int map_index, const Mip
     coarser.push_back({map.name, map.role, map.encoding, map.depth, std::vector<Image>(map.tiles.size())});
   if (levels == 1) return coarser;
 
-  Levels boxes = box_levels(map, levels);
-  if (const TileMap* normals = normals_for(map, set, options)) {
-    const Levels means = box_levels(*normals, levels);
-    tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
-      for (std::size_t level = 1; level < boxes.size(); ++level)
-        add_normal_variance(boxes[level][id], means[level][id]);
-    });
-  }
   const Weighting weighting = weighting_of(map);
+  const bool keeps_alpha = options.alpha_coverage > 0 && weighting == Weighting::by_alpha;
+  // Levels that nothing more is done to are encoded while the tile is still in the processor's cache.
+  const auto finished = [&](int level) {
+    return !keeps_alpha && (options.mode == MipMode::box || exact_through_guard(set.guard, level));
+  };
+  Levels boxes(as_size(levels), std::vector<Image>(map.tiles.size()));
+  const TileMap* const normals = normals_for(map, set, options);
+  tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
+    std::vector<Image> own = box_levels(map, id, as_size(levels));
+    if (normals != nullptr) {
+      const std::vector<Image> means = box_levels(*normals, id, as_size(levels));
+      for (std::size_t level = 1; level < own.size(); ++level) add_normal_variance(own[level], means[level]);
+    }
+    for (int level = 1; level < levels; ++level)
+      if (finished(level))
+        coarser[as_size(level - 1)].tiles[id] = encoded(std::move(own[as_size(level)]), map);
+      else
+        boxes[as_size(level)][id] = std::move(own[as_size(level)]);
+  });
+
   const PackNeighbours neighbours = layout ? pack_neighbours(*layout) : PackNeighbours{};
   tbb::parallel_for(1, levels, [&](int level) {
-    if (exact_through_guard(set.guard, level)) return;
+    if (finished(level) || exact_through_guard(set.guard, level)) return;
     std::vector<Image>& tiles = boxes[as_size(level)];
     if (options.mode == MipMode::least_squares)
       fit_borders(set.tiles, neighbours, options.jump_weight, weighting, tiles);
     else
       sanitize(set.tiles, level_size(set.tile_size, level), options.mode, weighting, tiles);
   });
-  if (options.alpha_coverage > 0 && weighting == Weighting::by_alpha) {
+  if (keeps_alpha) {
     const double threshold = options.alpha_coverage / 100.0;
     const double coverage = alpha_coverage(map.tiles, threshold);
     tbb::parallel_for(1, levels,
                       [&](int level) { keep_alpha_coverage(boxes[as_size(level)], threshold, coverage); });
   }
   tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
-    for (std::size_t level = 1; level < boxes.size(); ++level)
-      coarser[level - 1].tiles[id] = encoded(std::move(boxes[level][id]), map);
+    for (int level = 1; level < levels; ++level)
+      if (!finished(level))
+        coarser[as_size(level - 1)].tiles[id] = encoded(std::move(boxes[as_size(level)][id]), map);
   });
   return coarser;
 }

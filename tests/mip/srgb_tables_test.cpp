@@ -46,3 +46,31 @@ TEST_CASE("encoding gives back every 8-bit code, and leaves alpha alone") {
     CHECK(image.texel(0, 0)[3] == static_cast<float>(srgb_to_linear(static_cast<double>(value))));
   }
 }
+
+TEST_CASE("every instruction set gives the same bits, at any length") {
+  const auto kernels = srgb_kernels();
+  REQUIRE_FALSE(kernels.empty());
+  for (const int width : {2, 6, 34, 514})
+    for (const int channels : {1, 3}) {
+      Image codes(width, 6, channels);
+      std::uint64_t index = 0;
+      for (float& v : codes.data()) v = static_cast<float>(random_below(2, "code", index++, 256)) / 255.0f;
+      const Image linear = halved(to_linear(codes, Encoding::srgb), Weighting::plain);
+      Image values(width, 3, channels);
+      for (float& v : values.data()) // some of them off the curve's pieces
+        v = static_cast<float>(random_below(3, "value", index++, 1 << 16)) / 60000.0f - 0.02f;
+      Image encoded = values;
+      encode_srgb(encoded, kernels.back());
+      for (const SrgbKernel& kernel : kernels) {
+        INFO(kernel.target << ' ' << width << " x " << channels);
+        CHECK(halved_from_srgb(codes, kernel) == linear);
+        Image got = values;
+        encode_srgb(got, kernel);
+        CHECK(got == encoded);
+        Image strayed = codes;
+        strayed.data().back() = 0.1234f;
+        CHECK(halved_from_srgb(strayed, kernel) ==
+              halved(to_linear(strayed, Encoding::srgb), Weighting::plain));
+      }
+    }
+}

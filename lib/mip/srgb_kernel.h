@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+/// The vector kernels below srgb_tables.h. One for each instruction set; all give the same bits.
+namespace tilepack {
+
+/// Over one piece of the encoding curve, t in [0, 1): a + t (b + t c).
+struct Parabola {
+  float a, b, c;
+};
+
+/// The pieces are the floats from `first_bits` to 1 (as bit patterns), 2^piece_bits a piece.
+struct EncodeCurve {
+  static constexpr int piece_bits = 17; // of the 23 of a float's mantissa: 64 pieces an octave
+  int first_bits = 0;
+  const Parabola* pieces = nullptr;
+};
+
+struct SrgbKernel {
+  const char* target = "";
+
+  /// Codes k of values k / 255. Returns other than 0 if some value is no such quotient.
+  int (*find_codes)(const float* values, int* codes, std::size_t count) = nullptr;
+
+  /// Means of 2 × 2 boxes, `width` texels of `channels` values (1 or 3), of two rows of codes by `linear`, a
+  /// table of 256 values.
+  void (*halve_codes)(const int* north, const int* south, const float* linear, float* to, std::size_t width,
+                      std::size_t channels) = nullptr;
+
+  /// Codes of up to `block` values by the curve's pieces. Returns other than 0 if some value lies off them;
+  /// its code then means nothing.
+  int (*encode)(const float* values, float* codes, std::size_t count, const EncodeCurve& curve) = nullptr;
+  static constexpr std::size_t block = 256;
+};
+
+/// Those this machine can run, best first; never empty.
+std::vector<SrgbKernel> srgb_kernels();
+
+} // namespace tilepack
