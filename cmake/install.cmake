@@ -1,12 +1,14 @@
 # `cmake --install BUILD --prefix PREFIX`: the program, the library with its headers, and what find_package needs.
 # Nothing in it names a folder of this machine, so PREFIX may be moved.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(tilepack_package ${CMAKE_INSTALL_LIBDIR}/cmake/tilepack)
 set(tilepack_share ${CMAKE_INSTALL_DATADIR}/tilepack)
 
+file(RELATIVE_PATH modules_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR}/tilepack)
+set_target_properties(tilepack_cli PROPERTIES INSTALL_RPATH $ORIGIN/${modules_from_bin})
 install(TARGETS tilepack_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS tilepack_openimageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/tilepack)
 install(TARGETS tilepack EXPORT tilepackTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/lib/

@@ -3,7 +3,7 @@
 #   install_packages test     and what its tests need
 # This is the one list of them.
 
-build_packages="g++ cmake ninja-build libopenimageio-dev libimath-dev libopencv-core-dev libopencv-imgproc-dev
+build_packages="g++ cmake ninja-build libpng-dev zlib1g-dev libopenimageio-dev libimath-dev libopencv-core-dev libopencv-imgproc-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libhwy-dev libfmt-dev libxxhash-dev"
 test_packages="catch2 clang-14 libclang-rt-14-dev python3 python3-jsonschema"
 

@@ -14,6 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
+#include <zlib.h>
 
 namespace tilepack {
 namespace {
@@ -85,21 +86,6 @@ std::uint64_t big_endian(std::span<const unsigned char> bytes) {
 
 constexpr std::array<unsigned char, 8> png_signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
-/// CRC-32 as PNG has it (polynomial 0xEDB88320, reflected), continued from `crc`.
-std::uint32_t crc32(std::uint32_t crc, std::span<const unsigned char> bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> t{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t c = i;
-      for (int bit = 0; bit < 8; ++bit) c = c & 1u ? 0xEDB88320u ^ c >> 1 : c >> 1;
-      t[i] = c;
-    }
-    return t;
-  }();
-  for (const unsigned char b : bytes) crc = table[(crc ^ b) & 0xFFu] ^ crc >> 8;
-  return crc;
-}
-
 // Some decoders take memory for all an image's header promises before they look at the rest, so a promise
 // beyond what the format can deliver is refused first. Deflate makes at most 1032 bytes of one.
 void check_png_promise(const FileBytes& file) {
@@ -124,17 +110,17 @@ void check_png(const FileBytes& file) {
     if (!file.holds(offset + 8, length + 4)) file.truncated();
     if (first) check_png_promise(file);
 
-    std::uint32_t crc = crc32(0xFFFFFFFFu, std::span(head).subspan(4));
+    uLong crc = ::crc32_z(0, head.data() + 4, 4);
     for (std::uint64_t done = 0; done < length;) {
       const auto part = std::span(block).first(
           static_cast<std::size_t>(std::min<std::uint64_t>(length - done, block.size())));
       file.read(offset + 8 + done, part);
-      crc = crc32(crc, part);
+      crc = ::crc32_z(crc, part.data(), part.size());
       done += part.size();
     }
     std::array<unsigned char, 4> stored{};
     file.read(offset + 8 + length, stored);
-    if (big_endian(stored) != (crc ^ 0xFFFFFFFFu))
+    if (big_endian(stored) != crc)
       file.damaged(fmt::format("the chunk at byte {} fails its checksum", offset));
     if (type == "IEND") return;
     offset += length + 12;
@@ -275,20 +261,6 @@ private:
 };
 
 } // namespace
-
-std::string_view name_of(ImageFormat format) {
-  switch (format) {
-  case ImageFormat::png:
-    return "png";
-  case ImageFormat::jpeg:
-    return "jpeg";
-  case ImageFormat::tiff:
-    return "tiff";
-  case ImageFormat::exr:
-    break;
-  }
-  return "openexr";
-}
 
 ImageFormat image_format(const std::filesystem::path& path) {
   const FileBytes file(path);

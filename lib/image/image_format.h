@@ -1,15 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 namespace tilepack {
 
 /// The image formats that are read.
 enum class ImageFormat { png, jpeg, tiff, exr };
-
-/// The name by which OpenImageIO knows the format: "png", "jpeg", "tiff", "openexr".
-std::string_view name_of(ImageFormat format);
 
 /// The format of `file` by its first bytes. Throws Error (cannot_read) if it is missing, no regular file,
 /// unreadable, empty or none of the formats.

@@ -1,17 +1,16 @@
 #include "tilepack/verify/stored_texture_bench.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/image/openimageio_module.h"
 #include "tilepack/sampler/virtual_texture.h"
+#include "tilepack/verify/openimageio_textures.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/texture.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
+#include <stdexcept>
 
 namespace tilepack {
 namespace {
@@ -27,98 +26,26 @@ Pack as_linear(const Pack& pack, int map) {
   return result;
 }
 
-OIIO::TypeDesc type_of(Depth depth) {
-  switch (depth) {
-  case Depth::u8:
-    return OIIO::TypeDesc::UINT8;
-  case Depth::u16:
-    return OIIO::TypeDesc::UINT16;
-  case Depth::f16:
-    return OIIO::TypeDesc::HALF;
-  case Depth::f32:
-    break;
-  }
-  return OIIO::TypeDesc::FLOAT;
+const TextureFunctions& openimageio() {
+  return *static_cast<const TextureFunctions*>(openimageio_symbol("tilepack_texture_functions"));
 }
 
-// In bands, so that floats of the whole are never in memory.
-OIIO::ImageBuf written_out(const Pack& pack, Size size) {
+TextureMaker texture_of(const Pack& pack, Size size) {
   const PackedMap& map = pack.maps[0];
-  OIIO::ImageBuf buffer(OIIO::ImageSpec(size.width, size.height, map.channels, type_of(map.depth)));
-  constexpr int band = 256;
-  for (int y = 0; y < size.height; y += band) {
-    const int rows = std::min(band, size.height - y);
-    const Image part = virtual_texture(pack, 0, 0, {0, y, size.width, rows});
-    buffer.set_pixels(OIIO::ROI(0, size.width, y, y + rows, 0, 1, 0, map.channels), OIIO::TypeDesc::FLOAT,
-                      part.data().data());
-  }
-  return buffer;
+  return openimageio().maker(size, map.channels, map.depth, [&](int top, int rows) {
+    return virtual_texture(pack, 0, 0, {0, top, size.width, rows});
+  });
 }
 
-void make_texture(const OIIO::ImageBuf& buffer, const std::filesystem::path& file) {
-  OIIO::ImageSpec config;
-  config.tile_width = 64;
-  config.tile_height = 64;
-  config.attribute("maketx:filtername", "box");
-  config.attribute("wrapmodes", "periodic,periodic");
-  if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, buffer, file.string(), config))
-    throw Error(ErrorKind::cannot_write, file.string(), OIIO::geterror());
+void make_texture(const TextureMaker& maker, const std::filesystem::path& file) {
+  try {
+    maker(file);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::runtime_error& failed) {
+    throw Error(ErrorKind::cannot_write, file.string(), failed.what());
+  }
 }
-
-struct SystemDeleter {
-  void operator()(OIIO::TextureSystem* system) const { OIIO::TextureSystem::destroy(system); }
-};
-
-// 16 lookups a call, results as the texture system lays them out: channel after channel for each call.
-class StoredTexture {
-public:
-  StoredTexture(const std::filesystem::path& file, int channels, Size size)
-      : system(OIIO::TextureSystem::create(false)), channel_count(static_cast<std::size_t>(channels)),
-        side(size) {
-    system->attribute("max_memory_MB", 4096.0f);
-    handle = system->get_texture_handle(OIIO::ustring(file.string()));
-    thread = system->get_perthread_info();
-    options.interpmode = OIIO::Tex::InterpMode::Bilinear;
-    options.swrap = options.twrap = OIIO::Tex::Wrap::Periodic;
-    options.anisotropic = 1;
-    // Not initialised by their constructor.
-    std::fill_n(options.sblur, OIIO::Tex::BatchWidth, 0.0f);
-    std::fill_n(options.tblur, OIIO::Tex::BatchWidth, 0.0f);
-    std::fill_n(options.rblur, OIIO::Tex::BatchWidth, 0.0f);
-    std::fill_n(options.swidth, OIIO::Tex::BatchWidth, 1.0f);
-    std::fill_n(options.twidth, OIIO::Tex::BatchWidth, 1.0f);
-    std::fill_n(options.rwidth, OIIO::Tex::BatchWidth, 1.0f);
-  }
-
-  // s and t of a frame over the whole texture.
-  void look_up(const LookupFrame& frame, std::vector<float>& out,
-               OIIO::Tex::MipMode mode = OIIO::Tex::MipMode::Trilinear) {
-    options.mipmode = mode;
-    constexpr std::size_t width = OIIO::Tex::BatchWidth;
-    alignas(64) float ds_dx[width], dt_dx[width], ds_dy[width], dt_dy[width];
-    const auto step = static_cast<float>(frame.texels_a_pixel);
-    const auto cosine = static_cast<float>(std::cos(frame.angle));
-    const auto sine = static_cast<float>(std::sin(frame.angle));
-    for (std::size_t k = 0; k < width; ++k) {
-      ds_dx[k] = step * cosine / static_cast<float>(side.width);
-      dt_dx[k] = step * sine / static_cast<float>(side.height);
-      ds_dy[k] = -step * sine / static_cast<float>(side.width);
-      dt_dy[k] = step * cosine / static_cast<float>(side.height);
-    }
-    for (std::size_t at = 0; at + width <= frame.x.size(); at += width)
-      system->texture(handle, thread, options, OIIO::Tex::RunMaskOn, frame.x.data() + at, frame.y.data() + at,
-                      ds_dx, dt_dx, ds_dy, dt_dy, static_cast<int>(channel_count),
-                      out.data() + at % LookupFrame::bucket * channel_count);
-  }
-
-private:
-  std::unique_ptr<OIIO::TextureSystem, SystemDeleter> system;
-  OIIO::TextureSystem::TextureHandle* handle = nullptr;
-  OIIO::TextureSystem::Perthread* thread = nullptr;
-  OIIO::TextureOptBatch options;
-  std::size_t channel_count;
-  Size side;
-};
 
 LookupFrame part_of(const LookupFrame& frame, std::size_t at, std::size_t count) {
   LookupFrame part = frame;
@@ -144,16 +71,16 @@ SampleBatch batch_of(const LookupFrame& frame, std::size_t at, std::size_t count
 }
 
 // In level 0, where both must find the same; the texture system picks levels a little differently.
-void compare_answers(StoredTexture& stored, const FastSampler& fast, const LookupFrame& over_whole,
+void compare_answers(const TextureLookup& stored, const FastSampler& fast, const LookupFrame& over_whole,
                      const LookupFrame& in_tiles) {
   const auto channels = static_cast<std::size_t>(fast.channels());
   std::vector<float> theirs(LookupFrame::bucket * channels);
   std::vector<float> ours(LookupFrame::bucket * channels);
-  stored.look_up(part_of(over_whole, 0, LookupFrame::bucket), theirs, OIIO::Tex::MipMode::NoMIP);
+  stored(part_of(over_whole, 0, LookupFrame::bucket), theirs, false);
   std::vector<float*> pointers;
   for (std::size_t c = 0; c < channels; ++c) pointers.push_back(ours.data() + c * LookupFrame::bucket);
   fast.sample(batch_of(in_tiles, 0, LookupFrame::bucket), Filter::bilinear, Weights::exact, pointers);
-  constexpr std::size_t width = OIIO::Tex::BatchWidth;
+  constexpr std::size_t width = texture_batch;
   double sum = 0;
   for (std::size_t i = 0; i < LookupFrame::bucket; ++i)
     for (std::size_t c = 0; c < channels; ++c)
@@ -178,7 +105,7 @@ BenchRatio mip_ratio(const Pack& pack, const std::filesystem::path& folder, cons
                       map.encoding,
                       map.depth,
                       {virtual_texture(pack, 0, 0, {0, 0, size.width, size.height})}});
-  const OIIO::ImageBuf buffer = written_out(pack, size);
+  const TextureMaker maker = texture_of(pack, size);
   std::vector<double> ratios;
   // Both use all threads they get, so the clock on the wall counts.
   const auto seconds = [] {
@@ -189,7 +116,7 @@ BenchRatio mip_ratio(const Pack& pack, const std::filesystem::path& folder, cons
     const auto chain =
         coarser_levels(set, 0, {MipMode::box}); // level 0 is there already, as it is for maketx
     const double between = seconds();
-    make_texture(buffer, folder / "mips.tx");
+    make_texture(maker, folder / "mips.tx");
     ratios.push_back((seconds() - between) / (between - start));
   }
   return {fmt::format("mip chain of {} x {} texels against maketx", size.width, size.height), median(ratios),
@@ -207,13 +134,13 @@ std::vector<BenchRatio> bench_stored_texture(const Pack& original, int map,
   pack.mapping = mix_mapping({columns, rows}, options.seed);
   const Size size{columns * pack.tile_size.width, rows * pack.tile_size.height};
   report(progress, "stored texture", 0.0);
-  make_texture(written_out(pack, size), folder / "stored.tx");
+  make_texture(texture_of(pack, size), folder / "stored.tx");
 
   const LookupFrame in_tiles = coherent_frame(0, 0, pack.tile_size.width);
   LookupFrame over_whole = in_tiles;
   for (float& x : over_whole.x) x /= static_cast<float>(columns);
   for (float& y : over_whole.y) y /= static_cast<float>(rows);
-  StoredTexture stored(folder / "stored.tx", pack.maps[0].channels, size);
+  const TextureLookup stored = openimageio().open(folder / "stored.tx", pack.maps[0].channels, size);
   std::vector<float> theirs(LookupFrame::bucket * static_cast<std::size_t>(pack.maps[0].channels));
   std::vector<float> ours(theirs.size());
   std::vector<float*> pointers;
@@ -221,7 +148,7 @@ std::vector<BenchRatio> bench_stored_texture(const Pack& original, int map,
     pointers.push_back(ours.data() + static_cast<std::size_t>(c) * LookupFrame::bucket);
 
   std::vector<FastSampler> samplers;
-  std::vector<std::function<void()>> runs{[&] { stored.look_up(over_whole, theirs); }};
+  std::vector<std::function<void()>> runs{[&] { stored(over_whole, theirs, true); }};
   const std::vector<std::string> targets = fast_sampler_targets();
   std::vector<std::pair<std::string, double>> held_to{{targets.front(), 20.0}};
   if (targets.front() != "AVX2" && std::find(targets.begin(), targets.end(), "AVX2") != targets.end())

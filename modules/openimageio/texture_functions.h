@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tilepack/verify/openimageio_textures.h"
+
+namespace tilepack {
+
+/// What TextureFunctions points to.
+TextureMaker texture_maker(Size size, int channels, Depth depth,
+                           const std::function<Image(int top, int rows)>& band);
+TextureLookup open_texture(const std::filesystem::path& file, int channels, Size side);
+
+} // namespace tilepack
