@@ -182,6 +182,12 @@ TEST_CASE("the PNG that is written reads elsewhere, block after block") {
         CHECK(theirs.encoding == Encoding::srgb);
         CHECK(theirs.depth == depth);
         CHECK(read_image(file).image == theirs.image);
+        const std::string whole = bytes_of(file);
+        ImageWriter writer(file, size, channels, depth, Encoding::srgb);
+        for (int y = 0; y < size.height; y += 77)
+          writer.write(crop(image, {0, y, size.width, std::min(77, size.height - y)}));
+        writer.finish();
+        CHECK((bytes_of(file) == whole));
       }
   const Image image(300, 200, 3, 0.25f);
   write_image(file, image, Depth::u8, Encoding::srgb);
