@@ -82,6 +82,7 @@ int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
   bench.mips = mip_mode_errors(pack, map, a.lookups, options.seed, progress);
   bench.corners = corner_pictures(pack, map, std::min(2, pack.tile_levels - 1));
   bench.coordinates = coordinate_errors(pack, map, options.seed);
+  bench.hard_lookups = hard_lookups();
   bench.lookups = bench_lookups(pack, map, options, progress);
   if (options.large) {
     const ScratchFolder scratch;

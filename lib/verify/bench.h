@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/verify/against_reference.h"
+#include "tilepack/verify/hard_lookups.h"
 #include "tilepack/verify/lookup_bench.h"
 
 #include <string>
@@ -39,6 +40,7 @@ struct Bench {
   LookupBench lookups;
   std::vector<BenchRatio> stored; ///< against OpenImageIO; empty if not asked for
   std::vector<CoordinateError> coordinates;
+  std::vector<HardLookup> hard_lookups;
 };
 
 /// The pack as it is ("as stored"), then, for grid layouts, with each mip mode (in memory).

@@ -17,7 +17,7 @@ h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em }
 svg { background: #fafafa; border: 1px solid #ddd; width: 100% }
 .title { font: bold 14px sans-serif } .tick { font: 11px sans-serif; fill: #444 } .grid { stroke: #e2e2e2 }
 table { border-collapse: collapse; font-size: 13px } td, th { padding: 2px 10px; text-align: right; border-bottom: 1px solid #e4e4e4 }
-td:first-child, th:first-child { text-align: left } .good { color: #00704f } .bad { color: #b3261e; font-weight: bold }
+td:first-child, th:first-child, .words td:nth-child(2), .words th:nth-child(2) { text-align: left } .good { color: #00704f } .bad { color: #b3261e; font-weight: bold }
 .advice { background: #eef6fb; border-left: 4px solid #0072b2; padding: .6em 1em }
 figure { margin: 0; flex: 0 0 200px } figcaption { font-size: 13px; text-align: center }
 </style></head><body>
@@ -138,6 +138,17 @@ std::string cost_table(const Bench& bench) {
   return out + "</table>\n";
 }
 
+std::string hard_table(const Bench& bench) {
+  std::string out =
+      "<table class=\"words\"><tr><th>input</th><th>promised</th><th>reference sampler</th><th>fast "
+      "sampler</th></tr>\n";
+  for (const HardLookup& c : bench.hard_lookups)
+    out += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"{}\">{:.2g}</td><td>{}</td></tr>\n",
+                       escaped(c.input), escaped(c.promise), c.kept() ? "good" : "bad", c.reference,
+                       c.fast ? fmt::format("{:.2g}", *c.fast) : "");
+  return out + "</table>\n";
+}
+
 } // namespace
 
 std::string bench_page(const Bench& bench) {
@@ -162,6 +173,10 @@ std::string bench_page(const Bench& bench) {
   }
   page +=
       "<h2>Coordinates far from the origin</h2>\n<div class=\"row\">" + coordinate_plot(bench) + "</div>\n";
+  if (!bench.hard_lookups.empty())
+    page += "<h2>Hard cases</h2>\n<p>Largest difference from what is promised, in 8-bit units of linear "
+            "light.</p>\n" +
+            hard_table(bench);
   return page + "<h2>All mip figures</h2>\n<pre>" + escaped(reference_errors_text(bench.mips)) +
          "</pre>\n</body></html>\n";
 }

@@ -38,6 +38,8 @@ std::string bench_text(const Bench& bench) {
   for (const CoordinateError& e : bench.coordinates)
     text += fmt::format("  2^{:<4} {:>10.4f} {:>9.5f} {:>13.6f}\n", e.log2_texels, e.as_float, e.as_double,
                         e.as_tile_and_float);
+  text += "\nHard cases: largest difference from what is promised, 8-bit units of linear light\n" +
+          hard_lookups_text(bench.hard_lookups);
   return text + "\nMips\n" + reference_errors_text(bench.mips);
 }
 
@@ -69,6 +71,13 @@ std::string bench_json(const Bench& bench) {
                            {"float", e.as_float},
                            {"double", e.as_double},
                            {"tile_and_float", e.as_tile_and_float}});
+  Json hard = Json::array();
+  for (const HardLookup& c : bench.hard_lookups)
+    hard.push_back({{"input", c.input},
+                    {"promise", c.promise},
+                    {"reference", c.reference},
+                    {"fast", c.fast ? Json(*c.fast) : Json(nullptr)},
+                    {"kept", c.kept()}});
   const Json json = {{"pack", bench.pack},
                      {"map", bench.map},
                      {"target", bench.target},
@@ -78,6 +87,7 @@ std::string bench_json(const Bench& bench) {
                      {"ratios", std::move(ratios)},
                      {"sizes", std::move(sizes)},
                      {"coordinates", std::move(coordinates)},
+                     {"hard_lookups", std::move(hard)},
                      {"mips", Json::parse(reference_errors_json(bench.mips))}};
   return json.dump(2) + '\n';
 }
@@ -102,6 +112,10 @@ std::string bench_csv(const Bench& bench) {
     line("coordinate_float", fmt::format("2^{}", e.log2_texels), e.as_float);
     line("coordinate_double", fmt::format("2^{}", e.log2_texels), e.as_double);
     line("coordinate_tile_and_float", fmt::format("2^{}", e.log2_texels), e.as_tile_and_float);
+  }
+  for (const HardLookup& c : bench.hard_lookups) {
+    line("hard_reference", c.input, c.reference);
+    if (c.fast) line("hard_fast", c.input, *c.fast);
   }
   for (const ReferenceErrors& errors : bench.mips)
     for (const LevelError& level : errors.levels) {

@@ -1,10 +1,15 @@
-// What each mip mode is worth: bilinear lookups through a pack against the true mips of a random expansion.
+// What each mip mode is worth: bilinear lookups through packs against the true mips of a random expansion.
 //
-//   bench_mip_error [--tile N] [--guard G] [--colors K] [--levels A-B] IMAGE...
+//   bench_mip_error [--tile N] [--guard G] [--colors K] [--corner] [--quilt] [--float] IMAGE...
 //
-// For every image a tile set is synthesised; for every mode and level past the guard band the root mean
-// square error, in 8-bit units of the encoded value, inside tiles, within half a texel of an edge, and within
-// half a texel of a lattice point, and the jump across borders.
+// For every image a tile set is synthesised. Figures are of levels past the guard band, in 8-bit units of the
+// encoded value. Three tables are printed, ready for a README:
+//   * the median over images of the PSNR over the whole plane, by level and mode;
+//   * medians over images and levels of the RMS error inside tiles, within half a texel of an edge and within
+//     half a texel of a lattice point, and of the jump across borders; with the *floor*: the error that no
+//     texels of a pack can go below, since a lookup knows its tile but not the tile's neighbours in the plane
+//     (the spread of the true value over these);
+//   * for each image, least squares with the least jump weight whose jump is no larger than that of `edges`.
 
 #include "tilepack/image/image_file.h"
 #include "tilepack/layout/de_bruijn.h"
@@ -18,6 +23,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -44,6 +50,22 @@ struct Sum {
 
 struct Figures {
   Sum interior, edge, corner, jump;
+  Sum edge_floor, corner_floor;
+
+  Sum all() const {
+    return {interior.squares + edge.squares + corner.squares, interior.count + edge.count + corner.count};
+  }
+  Sum border() const { return {edge.squares + corner.squares, edge.count + corner.count}; }
+};
+
+// The true values seen at one place of one tile, in all surroundings drawn.
+struct Spread {
+  double sum = 0;
+  double squares = 0;
+  double count = 0;
+  double variance() const {
+    return count > 1 ? std::max(0.0, (squares - sum * sum / count) / (count - 1)) : 0;
+  }
 };
 
 double encode(double v, Encoding encoding) {
@@ -77,6 +99,45 @@ double bilinear(const Image& p, double x, double y, std::size_t c) {
   const double v = fy - iy;
   const auto at = [&](int i, int j) { return static_cast<double>(p.texel(ix + i, iy + j)[c]); };
   return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+}
+
+// edge_floor and corner_floor.
+Figures floors(const std::vector<Image>& truth, const Mapping& mapping, const ColorCounts& colors,
+               Encoding encoding, int cells) {
+  const int n = truth.front().width();
+  const int h = truth.front().height();
+  const auto channels = as_size(truth.front().channels());
+  std::vector<std::vector<Spread>> spreads(truth.size(), std::vector<Spread>(as_size(4 * n * h) * channels));
+  for (int row = 0; row < cells; ++row)
+    for (int column = 0; column < cells; ++column) {
+      const int x0 = column * 3;
+      const int y0 = row * 3;
+      const int tile = tile_at(mapping, colors, x0, y0);
+      const Image t =
+          padded(truth, tile, [&](int dx, int dy) { return tile_at(mapping, colors, x0 + dx, y0 + dy); });
+      for (int j = 0; j < 2 * h; ++j)
+        for (int i = 0; i < 2 * n; ++i) {
+          if (i > 0 && i < 2 * n - 1 && j > 0 && j < 2 * h - 1) continue;
+          for (std::size_t c = 0; c < channels; ++c) {
+            const double v = encode(bilinear(t, (i + 0.5) / 2, (j + 0.5) / 2, c), encoding);
+            Spread& spread = spreads[as_size(tile)][as_size(j * 2 * n + i) * channels + c];
+            spread.sum += v;
+            spread.squares += v * v;
+            spread.count += 1;
+          }
+        }
+    }
+  Figures result;
+  for (const auto& tile : spreads)
+    for (std::size_t k = 0; k < tile.size(); ++k) {
+      const int i = static_cast<int>(k / channels) % (2 * n);
+      const int j = static_cast<int>(k / channels) / (2 * n);
+      const bool corner = (i == 0 || i == 2 * n - 1) && (j == 0 || j == 2 * h - 1);
+      Sum& sum = corner ? result.corner_floor : result.edge_floor;
+      sum.squares += tile[k].variance() * tile[k].count;
+      sum.count += tile[k].count;
+    }
+  return result;
 }
 
 Figures measured(const std::vector<Image>& truth, const std::vector<Image>& stored,
@@ -123,7 +184,7 @@ Figures measured(const std::vector<Image>& truth, const std::vector<Image>& stor
       }
     }
   });
-  Figures all;
+  Figures all = floors(truth, mapping, colors, encoding, cells);
   for (const Figures& f : rows)
     for (const auto member : {&Figures::interior, &Figures::edge, &Figures::corner, &Figures::jump}) {
       (all.*member).squares += (f.*member).squares;
@@ -137,113 +198,188 @@ double median(std::vector<double> v) {
   return v.empty() ? 0 : v[v.size() / 2];
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+struct Settings {
   int tile = 128;
   int guard = 0;
   int colors = 2;
   bool corner = false;
+  Interior interior = Interior::patch;
   Depth depth = Depth::u8;
-  std::vector<int> weights{0, 1, 4, 10, 100};
   std::vector<std::string> images;
+};
+
+Settings settings_of(int argc, char** argv) {
+  Settings s;
   for (int i = 1; i < argc; ++i) {
     const std::string a = argv[i];
     if (a == "--tile")
-      tile = std::atoi(argv[++i]);
+      s.tile = std::atoi(argv[++i]);
     else if (a == "--guard")
-      guard = std::atoi(argv[++i]);
+      s.guard = std::atoi(argv[++i]);
     else if (a == "--colors")
-      colors = std::atoi(argv[++i]);
+      s.colors = std::atoi(argv[++i]);
     else if (a == "--corner")
-      corner = true;
+      s.corner = true;
+    else if (a == "--quilt")
+      s.interior = Interior::quilt;
     else if (a == "--float")
-      depth = Depth::f32;
-    else if (a == "--weights") {
-      weights.clear();
-      for (std::string list = argv[++i]; !list.empty();) {
-        weights.push_back(std::atoi(list.c_str()));
-        const auto comma = list.find(',');
-        list = comma == std::string::npos ? "" : list.substr(comma + 1);
-      }
-    } else
-      images.push_back(a);
+      s.depth = Depth::f32;
+    else
+      s.images.push_back(a);
   }
-  struct Row {
-    std::string mode;
-    MipOptions options;
-  };
-  std::vector<Row> modes;
-  for (const MipMode mode : {MipMode::box, MipMode::edges, MipMode::corners}) {
+  return s;
+}
+
+struct Mode {
+  std::string name;
+  MipOptions options;
+};
+
+constexpr std::array weights{0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 1000};
+
+std::vector<Mode> all_modes() {
+  std::vector<Mode> modes;
+  for (const MipMode mode : {MipMode::box, MipMode::edges, MipMode::corners, MipMode::least_squares}) {
     MipOptions o;
     o.mode = mode;
     modes.push_back({std::string(name_of(mode)), o});
   }
-  for (const int w : weights) {
+  for (const int weight : weights) {
     MipOptions o;
     o.mode = MipMode::least_squares;
-    o.jump_weight = w;
-    modes.push_back({fmt::format("lsq {}", w), o});
+    o.jump_weight = weight;
+    modes.push_back({fmt::format("weight {}", weight), o});
   }
+  return modes;
+}
 
-  std::map<std::pair<std::string, int>, std::vector<std::vector<double>>> table; // (mode, level) → figures
-  for (const std::string& file : images) {
-    try {
-      const ImageFile read = read_image(file);
-      SynthOptions options;
-      options.tile_size = {tile, tile};
-      options.guard = guard;
-      if (corner) {
-        options.coloring = Coloring::corner;
-        options.colors = {0, 0, colors};
-      } else
-        options.colors = {colors, colors, 0};
-      const SampleMap sample{"color", Role::color, read.encoding, read.depth, read.image};
-      const TileSet set = assembled(synthesize(std::span(&sample, 1), options), std::span(&sample, 1));
-      const Layout layout = corner ? de_bruijn_layout(std::get<std::vector<CornerTile>>(set.tiles))
-                                   : tile_index_layout(std::get<std::vector<EdgeTile>>(set.tiles));
-      const PackNeighbours pack = pack_neighbours(layout);
-      const Mapping mapping = mix_mapping({1 << 20, 1 << 20}, 1);
-      MipOptions plain;
-      plain.mode = MipMode::box;
-      const auto truth = mip_chain(set, 0, plain);
-      fmt::print("{}\n", file.substr(file.rfind('/') + 1));
-      for (const Row& row : modes) {
-        const auto chain = mip_chain(set, 0, row.options, &layout);
-        fmt::print("  {:10}", row.mode);
-        for (int level = 1; level < static_cast<int>(chain.size()); ++level) {
-          if (exact_through_guard(guard, level)) continue;
-          std::vector<Image> t, s;
-          for (std::size_t id = 0; id < truth[0].tiles.size(); ++id) {
-            t.push_back(to_linear(truth[as_size(level)].tiles[id], sample.encoding));
-            s.push_back(to_linear(quantised(chain[as_size(level)].tiles[id], depth), sample.encoding));
-          }
-          const Figures f = measured(t, s, pack, mapping, set.colors, sample.encoding, level < 3 ? 12 : 30);
-          fmt::print(" | {} {:.2f} {:.2f} {:.2f} j {:.2f}", level, f.interior.rms(), f.edge.rms(),
-                     f.corner.rms(), f.jump.rms());
-          table[{row.mode, level}].push_back({f.interior.rms(), f.edge.rms(), f.corner.rms(), f.jump.rms()});
-        }
-        fmt::print("\n");
-      }
+using Levels = std::map<int, Figures>;          // by level
+using Measured = std::map<std::string, Levels>; // by mode
+
+Measured measure(const std::string& file, const Settings& s) {
+  const ImageFile read = read_image(file);
+  SynthOptions options;
+  options.tile_size = {s.tile, s.tile};
+  options.guard = s.guard;
+  options.interior = s.interior;
+  options.colors = {s.colors, s.colors, 0};
+  if (s.corner) {
+    options.coloring = Coloring::corner;
+    options.colors = {0, 0, s.colors};
+  }
+  const SampleMap sample{"color", Role::color, read.encoding, read.depth, read.image};
+  const TileSet set = assembled(synthesize(std::span(&sample, 1), options), std::span(&sample, 1));
+  const Layout layout = s.corner ? de_bruijn_layout(std::get<std::vector<CornerTile>>(set.tiles))
+                                 : tile_index_layout(std::get<std::vector<EdgeTile>>(set.tiles));
+  const PackNeighbours pack = pack_neighbours(layout);
+  const Mapping mapping = mix_mapping({1 << 20, 1 << 20}, 1);
+  MipOptions box;
+  box.mode = MipMode::box;
+  const auto truth = mip_chain(set, 0, box);
+  const auto linear = [&](const std::vector<Image>& tiles, Depth depth) {
+    std::vector<Image> result;
+    for (const Image& image : tiles) result.push_back(to_linear(quantised(image, depth), sample.encoding));
+    return result;
+  };
+  Measured result;
+  for (const Mode& mode : all_modes()) {
+    const auto chain = mip_chain(set, 0, mode.options, &layout);
+    for (int level = 1; level < static_cast<int>(chain.size()); ++level)
+      if (!exact_through_guard(s.guard, level))
+        result[mode.name][level] = measured(linear(truth[as_size(level)].tiles, Depth::f32),
+                                            linear(chain[as_size(level)].tiles, s.depth), pack, mapping,
+                                            set.colors, sample.encoding, level < 3 ? 12 : 30);
+  }
+  return result;
+}
+
+double psnr(const Sum& error) {
+  return 20 * std::log10(255 / std::max(error.rms(), 1e-9));
+}
+
+// Root of the mean over levels of the squares.
+template <typename Figure>
+double over_levels(const Levels& levels, Figure&& figure) {
+  double sum = 0;
+  for (const auto& [level, figures] : levels) sum += figure(figures) * figure(figures);
+  return std::sqrt(sum / static_cast<double>(levels.size()));
+}
+
+void print_psnr(const std::vector<std::pair<std::string, Measured>>& images) {
+  fmt::print("| median PSNR, dB |");
+  for (const auto& [level, figures] : images.front().second.at("box")) fmt::print(" level {} |", level);
+  fmt::print("\n");
+  for (const char* mode : {"box", "edges", "corners", "least-squares"}) {
+    fmt::print("| {} |", mode);
+    for (const auto& [level, ignored] : images.front().second.at("box")) {
+      std::vector<double> values;
+      for (const auto& [name, measured] : images)
+        if (const auto found = measured.at(mode).find(level); found != measured.at(mode).end())
+          values.push_back(psnr(found->second.all()));
+      fmt::print(" {:.1f} |", median(values));
+    }
+    fmt::print("\n");
+  }
+}
+
+void print_zones(const std::vector<std::pair<std::string, Measured>>& images) {
+  fmt::print("\n| medians over images and levels | interior | edge | corner | jump |\n");
+  const auto line = [&](const std::string& mode) {
+    fmt::print("| {} |", mode);
+    for (const auto zone : {&Figures::interior, &Figures::edge, &Figures::corner, &Figures::jump}) {
+      std::vector<double> values;
+      for (const auto& [name, measured] : images)
+        for (const auto& [level, figures] : measured.at(mode)) values.push_back((figures.*zone).rms());
+      fmt::print(" {:.2f} |", median(values));
+    }
+    fmt::print("\n");
+  };
+  for (const Mode& mode : all_modes()) line(mode.name);
+  fmt::print("| floor | |");
+  for (const auto zone : {&Figures::edge_floor, &Figures::corner_floor}) {
+    std::vector<double> values;
+    for (const auto& [name, measured] : images)
+      for (const auto& [level, figures] : measured.at("box")) values.push_back((figures.*zone).rms());
+    fmt::print(" {:.2f} |", median(values));
+  }
+  fmt::print(" |\n");
+}
+
+void print_duel(const std::vector<std::pair<std::string, Measured>>& images) {
+  fmt::print(
+      "\n| image | edges: border error | jump | least squares: weight | border error | jump | better by |\n");
+  const auto border = [](const Figures& f) { return f.border().rms(); };
+  const auto jump = [](const Figures& f) { return f.jump.rms(); };
+  int won = 0;
+  for (const auto& [name, measured] : images) {
+    const Levels& edges = measured.at("edges");
+    for (const int weight : weights) {
+      const Levels& ours = measured.at(fmt::format("weight {}", weight));
+      if (over_levels(ours, jump) > over_levels(edges, jump) && weight != weights.back()) continue;
+      const double gain = 1 - over_levels(ours, border) / over_levels(edges, border);
+      won += gain > 0 && over_levels(ours, jump) <= over_levels(edges, jump);
+      fmt::print("| {} | {:.2f} | {:.2f} | {} | {:.2f} | {:.2f} | {:.0f} % |\n", name,
+                 over_levels(edges, border), over_levels(edges, jump), weight, over_levels(ours, border),
+                 over_levels(ours, jump), 100 * gain);
+      break;
+    }
+  }
+  fmt::print("least squares is better on {} of {} images\n", won, images.size());
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const Settings settings = settings_of(argc, argv);
+  std::vector<std::pair<std::string, Measured>> images;
+  for (const std::string& file : settings.images) try {
+      images.emplace_back(file.substr(file.rfind('/') + 1), measure(file, settings));
+      fmt::print(stderr, "{}\n", images.back().first);
     } catch (const std::exception& e) {
-      fmt::print("{}: {}\n", file, e.what());
+      fmt::print(stderr, "{}: {}\n", file, e.what());
     }
-  }
-  fmt::print("medians over images: interior edge corner jump\n");
-  for (const Row& row : modes) {
-    fmt::print("  {:10}", row.mode);
-    std::vector<double> over[4];
-    for (const auto& [key, figures] : table) {
-      if (key.first != row.mode) continue;
-      fmt::print(" | {}", key.second);
-      for (std::size_t k = 0; k < 4; ++k) {
-        std::vector<double> v;
-        for (const auto& f : figures) v.push_back(f[k]);
-        over[k].insert(over[k].end(), v.begin(), v.end());
-        fmt::print(" {:.2f}", median(v));
-      }
-    }
-    fmt::print(" | all {:.2f} {:.2f} {:.2f} j {:.2f}\n", median(over[0]), median(over[1]), median(over[2]),
-               median(over[3]));
-  }
+  if (images.empty()) return 1;
+  print_psnr(images);
+  print_zones(images);
+  print_duel(images);
 }
