@@ -14,12 +14,15 @@ struct FastTables {
   static constexpr int max_levels = 32;
 
   // Texels of all levels in one block, four channels each. A level is stored with one more texel on each
-  // side, wrapped, so that no tap has to wrap. `base` is where texel (0, 0) stands, in texels.
+  // side, wrapped, so that no tap has to wrap; of an array each layer, with the texels a filter reads beyond
+  // it. `base` is where texel (0, 0) stands, in texels.
   TexelStorage storage = TexelStorage::u8;
   const void* texels = nullptr;
   int levels = 0;
   float tile_width[max_levels] = {};
   float tile_height[max_levels] = {};
+  std::int32_t pitch_x[max_levels] = {}; // texels from a tile to the next: its side, in arrays and a border
+  std::int32_t pitch_y[max_levels] = {};
   std::int32_t base[max_levels] = {};
   std::int32_t stride[max_levels] = {}; // texels a row
   float unit = 1;                       // value of the stored code 1

@@ -119,17 +119,23 @@ HWY_INLINE LevelPlace level_of_each(const FastTables& t, VI place, VI level) {
   const I i;
   LevelPlace result;
   VI base = hn::Zero(i);
+  VI pitch_x = hn::Zero(i);
+  VI pitch_y = hn::Zero(i);
   const std::int32_t first = hn::GetLane(level);
   if (hn::AllTrue(i, hn::Eq(level, hn::Set(i, first)))) {
     result = shared_level(t, first, base);
     base = hn::Set(i, t.base[first]);
+    pitch_x = hn::Set(i, t.pitch_x[first]);
+    pitch_y = hn::Set(i, t.pitch_y[first]);
   } else {
     result = {hn::GatherIndex(f, t.tile_width, level), hn::GatherIndex(f, t.tile_height, level),
               hn::GatherIndex(i, t.stride, level), base};
     base = hn::GatherIndex(i, t.base, level);
+    pitch_x = hn::GatherIndex(i, t.pitch_x, level);
+    pitch_y = hn::GatherIndex(i, t.pitch_y, level);
   }
-  const VI texel_x = hn::Mul(hn::And(place, hn::Set(i, 0xffff)), to_integer(result.width));
-  const VI texel_y = hn::Mul(hn::ShiftRight<16>(place), to_integer(result.height));
+  const VI texel_x = hn::Mul(hn::And(place, hn::Set(i, 0xffff)), pitch_x);
+  const VI texel_y = hn::Mul(hn::ShiftRight<16>(place), pitch_y);
   result.origin = hn::Add(base, hn::Add(hn::Mul(texel_y, result.stride), texel_x));
   return result;
 }

@@ -3,7 +3,9 @@
 #include "tilepack/error/error.h"
 #include "tilepack/image/wrap.h"
 #include "tilepack/sampler/address.h"
+#include "tilepack/sampler/fast_corners.h"
 #include "tilepack/sampler/fast_kernel.h"
+#include "tilepack/sampler/pack_texels.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -14,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace tilepack {
@@ -83,7 +86,13 @@ struct FastSampler::State {
   std::vector<std::int32_t> places, first, second, horizontal, vertical;
 
   void take_kernel(std::string_view target);
+  std::optional<FastCorners> corner_pass;
+
   void take_texels(const PackedMap& map, Size tile);
+  void take_layers(const Pack& pack, int map);
+  void take_storage(const PackedMap& map, Size tile);
+  void place_levels(const std::vector<Size>& sizes);
+  void store_texel(int level, std::int64_t x, std::int64_t y, std::span<const float> texel);
   void take_mapping(const Pack& pack);
   void take_permutation(const Pack& pack, bool corners);
 };
@@ -99,7 +108,8 @@ void FastSampler::State::take_kernel(std::string_view target) {
   kernel = *found;
 }
 
-void FastSampler::State::take_texels(const PackedMap& map, Size tile) {
+// What follows from the map alone.
+void FastSampler::State::take_storage(const PackedMap& map, Size tile) {
   const int levels = static_cast<int>(map.levels.size());
   if (levels < 1 || levels > FastTables::max_levels || map.channels < 1 || map.channels > 4)
     throw Error(ErrorKind::usage, map.name,
@@ -111,36 +121,75 @@ void FastSampler::State::take_texels(const PackedMap& map, Size tile) {
   t.alpha = map.role == Role::color && map.channels % 2 == 0;
   t.storage = storage_for(map, t.alpha);
   t.unit = t.storage == TexelStorage::u8 ? 1.0f / 255 : t.storage == TexelStorage::u16 ? 1.0f / 65535 : 1.0f;
-
-  std::int64_t count = 0;
   for (int l = 0; l < levels; ++l) {
-    const Image& image = map.levels[static_cast<std::size_t>(l)];
-    t.stride[l] = image.width() + 2;
-    t.base[l] = static_cast<std::int32_t>(count) + t.stride[l] + 1;
     t.tile_width[l] = static_cast<float>(tile.width >> l);
     t.tile_height[l] = static_cast<float>(tile.height >> l);
-    count += static_cast<std::int64_t>(image.width() + 2) * (image.height() + 2);
-    if (count > std::numeric_limits<std::int32_t>::max())
-      throw Error(ErrorKind::usage, map.name,
-                  "has more texels than the 2^31 that the fast sampler can reach");
   }
-  const std::size_t value = bytes_of(t.storage);
-  texels.resize(static_cast<std::size_t>(count) * 4 * value);
-  for (int l = 0; l < levels; ++l) {
+}
+
+// Room for levels of these sizes, with a texel more on each side.
+void FastSampler::State::place_levels(const std::vector<Size>& sizes) {
+  std::int64_t count = 0;
+  for (std::size_t l = 0; l < sizes.size(); ++l) {
+    tables.stride[l] = sizes[l].width + 2;
+    tables.base[l] = static_cast<std::int32_t>(count) + tables.stride[l] + 1;
+    count += static_cast<std::int64_t>(sizes[l].width + 2) * (sizes[l].height + 2);
+    if (count > std::numeric_limits<std::int32_t>::max())
+      throw Error(ErrorKind::usage, "pack", "has more texels than the 2^31 that the fast sampler can reach");
+  }
+  texels.resize(static_cast<std::size_t>(count) * 4 * bytes_of(tables.storage));
+  tables.texels = texels.data();
+}
+
+void FastSampler::State::store_texel(int level, std::int64_t x, std::int64_t y, std::span<const float> from) {
+  const std::size_t value = bytes_of(tables.storage);
+  const std::int64_t index = tables.base[level] + y * tables.stride[level] + x;
+  std::byte* at = texels.data() + static_cast<std::size_t>(index) * 4 * value;
+  for (std::size_t c = 0; c < from.size(); ++c) {
+    const bool weighed = tables.alpha && c + 1 < from.size();
+    store(tables.storage, weighed ? from[c] * from.back() : from[c], at + c * value);
+  }
+}
+
+// Tiles side by side in textures that wrap.
+void FastSampler::State::take_texels(const PackedMap& map, Size tile) {
+  take_storage(map, tile);
+  std::vector<Size> sizes;
+  for (const Image& level : map.levels) sizes.push_back(level.size());
+  place_levels(sizes);
+  for (int l = 0; l < tables.levels; ++l) {
+    tables.pitch_x[l] = tile.width >> l;
+    tables.pitch_y[l] = tile.height >> l;
     const Image image = to_linear(map.levels[static_cast<std::size_t>(l)], map.encoding);
     tbb::parallel_for(-1, image.height() + 1, [&](int y) {
-      for (int x = -1; x <= image.width(); ++x) {
-        const auto from = image.texel(wrapped(x, image.width()), wrapped(y, image.height()));
-        const std::int64_t index = t.base[l] + static_cast<std::int64_t>(y) * t.stride[l] + x;
-        std::byte* at = texels.data() + static_cast<std::size_t>(index) * 4 * value;
-        for (std::size_t c = 0; c < from.size(); ++c) {
-          const bool weighed = t.alpha && c + 1 < from.size();
-          store(t.storage, weighed ? from[c] * from.back() : from[c], at + c * value);
-        }
-      }
+      for (int x = -1; x <= image.width(); ++x)
+        store_texel(l, x, y, image.texel(wrapped(x, image.width()), wrapped(y, image.height())));
     });
   }
-  t.texels = texels.data();
+}
+
+// The layers of an array one below the other, each with the texel beyond it on every side that filters read.
+void FastSampler::State::take_layers(const Pack& pack, int map) {
+  const PackTexels layers(pack, map);
+  take_storage(pack.maps[static_cast<std::size_t>(map)], pack.tile_size);
+  const int count = pack.layout.rows;
+  std::vector<Size> sizes;
+  for (int l = 0; l < tables.levels; ++l) {
+    const Size tile = layers.tile_size(l);
+    sizes.push_back({tile.width, count * (tile.height + 2) - 2});
+  }
+  place_levels(sizes);
+  for (int l = 0; l < tables.levels; ++l) {
+    const Size tile = layers.tile_size(l);
+    tables.pitch_x[l] = tile.width;
+    tables.pitch_y[l] = tile.height + 2;
+    tbb::parallel_for(0, count, [&](int layer) {
+      for (int y = -1; y <= tile.height; ++y)
+        for (int x = -1; x <= tile.width; ++x)
+          store_texel(l, x, static_cast<std::int64_t>(layer) * tables.pitch_y[l] + y,
+                      layers.texel(l, {0, layer, 0}, x, y));
+    });
+  }
 }
 
 // P written out so that no sum of indices needs a mod: P[P[x] + y] with P[x] < n and y up to the height.
@@ -161,10 +210,10 @@ void FastSampler::State::take_permutation(const Pack& pack, bool corners) {
 void FastSampler::State::take_mapping(const Pack& pack) {
   FastTables& t = tables;
   const Mapping& mapping = pack.mapping;
-  if (pack.layout.kind != LayoutKind::tile_index && pack.layout.kind != LayoutKind::de_bruijn)
+  if (pack.layout.kind == LayoutKind::rotated)
     throw Error(ErrorKind::usage, "layout",
-                fmt::format("'{}' is not one the fast sampler looks up; 'tile-index' and 'de-bruijn' are",
-                            name_of(pack.layout.kind)));
+                "'rotated' is not one the fast sampler looks up; bake with --layout tile-index, de-bruijn or "
+                "array, or use the reference sampler");
   const bool corners = pack.colors.corner > 0;
   t.width = mapping.size.width;
   t.height = mapping.size.height;
@@ -211,7 +260,11 @@ FastSampler::FastSampler(const Pack& pack, int map, std::string_view target)
     throw Error(ErrorKind::usage, "map",
                 fmt::format("{} is not a map of the pack; it has 0..{}", map, maps - 1));
   state->take_mapping(pack);
-  state->take_texels(pack.maps[static_cast<std::size_t>(map)], pack.tile_size);
+  if (pack.layout.kind == LayoutKind::array)
+    state->take_layers(pack, map);
+  else
+    state->take_texels(pack.maps[static_cast<std::size_t>(map)], pack.tile_size);
+  if (pack.corner_pack) state->corner_pass.emplace(pack, map);
 }
 
 FastSampler::FastSampler(const PackedMap& map, Size size, std::string_view target)
@@ -241,6 +294,7 @@ std::size_t FastSampler::bytes() const {
 void FastSampler::sample(const SampleBatch& batch, Filter filter, Weights weights,
                          std::span<float* const> out) const {
   state->kernel.look_up(state->tables, batch, filter, weights, out.data());
+  if (state->corner_pass) state->corner_pass->blend_in(batch, filter, out);
 }
 
 void FastSampler::sample_parallel(const SampleBatch& batch, Filter filter, Weights weights,
@@ -252,7 +306,7 @@ void FastSampler::sample_parallel(const SampleBatch& batch, Filter filter, Weigh
                            from(batch.x), from(batch.y),      from(batch.level)};
     std::array<float*, 4> targets{};
     for (std::size_t c = 0; c < out.size() && c < targets.size(); ++c) targets[c] = out[c] + range.begin();
-    state->kernel.look_up(state->tables, part, filter, weights, targets.data());
+    sample(part, filter, weights, {targets.data(), out.size()});
   });
 }
 

@@ -45,7 +45,9 @@ enum class TexelStorage {
 /// * 2^-24; where alpha is 0, colors are 0; a fraction of 2^62 tiles or more counts as 0 there and here. The
 /// last bits differ between kinds of processors: results are for looking at, not for packs.
 ///
-/// Layouts: the kinds whose cells form a grid that wraps (tile_index, de_bruijn).
+/// Layouts: grids that wrap (tile_index, de_bruijn) and arrays. A corner pack is blended in as the reference
+/// does, by the reference: places near corners of tiles, at coarse levels most places, cost what they cost
+/// there and have exact weights. Rotated layouts are for ReferenceSampler alone.
 class FastSampler {
 public:
   /// Copies what it needs of pack.maps[map]. `target`: one of fast_sampler_targets(), empty for the best.
