@@ -95,14 +95,14 @@ Error named_as_final(const Error& error, const fs::path& staging, const fs::path
 } // namespace
 
 void check_pack_folder(const fs::path& folder) {
-  replaceable_files(folder);
   const StagedFolder made_and_removed(folder); // is there permission, is it locked?
+  replaceable_files(folder);
 }
 
 void write_pack(const Pack& pack, const fs::path& folder, const Progress& progress) {
-  const std::vector<std::string> old_files = replaceable_files(folder);
   const PackDescription description = described(pack);
-  StagedFolder staged(folder);
+  StagedFolder staged(folder); // first, since it puts back what a killed process left half done
+  const std::vector<std::string> old_files = replaceable_files(folder);
   std::vector<Task> tasks;
   plan_maps(tasks, pack.maps, description.map_files, staged.path());
   if (pack.corner_pack) plan_maps(tasks, pack.corner_pack->maps, description.corner_files, staged.path());

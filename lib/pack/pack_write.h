@@ -9,11 +9,12 @@ namespace tilepack {
 
 /// Writes pack.json and the images into `folder`, which is made if missing.
 ///
-/// All or nothing: every file is first written to a staging folder, and moved into place only when all are
-/// complete, pack.json last. A folder that already holds a tile pack has that pack replaced: its files that
-/// no longer belong go, files that are not the pack's stay as they are. A folder that holds something else,
-/// or a pack.json that can't be read as a tile pack, is refused. If anything fails, or `progress` throws,
-/// the folder is as it was. Throws Error (cannot_write). The same pack gives the same bytes.
+/// All or nothing, even if the process is killed: every file is first written to a staging folder, which
+/// takes the place of `folder` in one step where possible (StagedFolder says where not). A folder that
+/// already holds a tile pack has that pack replaced: its files that no longer belong go, files that are not
+/// the pack's stay as they are. A folder that holds something else, or a pack.json that can't be read as a
+/// tile pack, is refused. If anything fails, or `progress` throws, the folder is as it was. Throws Error
+/// (cannot_write). The same pack gives the same bytes.
 void write_pack(const Pack& pack, const std::filesystem::path& folder, const Progress& progress = {});
 
 /// Throws what write_pack would throw about the folder itself, before any work is done for it: other files

@@ -6,37 +6,49 @@
 
 namespace tilepack {
 
-/// Replaces a set of files in a folder, all of them or none.
+/// Replaces a set of files in a folder: all of them or none, even if the process is killed between two steps.
 ///
-///   StagedFolder staged(folder);          // made if missing; locked against other writers
+///   StagedFolder staged(folder);          // locked against other writers
 ///   … write every file into staged.path() …
-///   staged.commit(new_files, old_files);  // old ones out, new ones in, the last of new_files last
+///   staged.commit(new_files, old_files);
 ///
-/// The staging folder `.tilepack-staging` lies inside `folder`, so that moving a file into place is a rename
-/// within one file system even where `folder` is a mount point. A failing commit puts back what it moved.
-/// Destroyed without commit(), everything is as before, folders made for it included.
-/// All functions throw Error (cannot_write).
+/// Files are staged in a folder beside the target, `.NAME.tilepack-staging`, and the whole folder takes the
+/// target's place in one step (renameat2, RENAME_EXCHANGE), with the files of others linked into it before.
+/// So the target becomes another folder of the same name, owner and permissions.
+///
+/// Where that can't be, files are moved one by one instead, the last of `new_files` last, after what is about
+/// to happen was noted in the staging folder; if the process is killed meanwhile, the next StagedFolder of
+/// this target puts everything back. That is so if the target is a mount point or the current folder, has
+/// folders in it or an access list, or its owner can't be kept or its parent not written to; in the last case
+/// files are staged inside the target, in `.tilepack-staging`.
+///
+/// Destroyed without commit(), everything is as before, folders made for it included. All functions throw
+/// Error (cannot_write).
 class StagedFolder {
 public:
-  explicit StagedFolder(const std::filesystem::path& folder);
+  explicit StagedFolder(const std::filesystem::path& target);
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
   const std::filesystem::path& path() const { return staging; }
 
-  /// Moves the staged `new_files` into the folder in their order, after moving `old_files` out (those that
-  /// are there). Refuses to replace a file that is not among the old ones. Names are relative to the folder.
+  /// Takes out `old_files` (those that are there) and puts in the staged `new_files`. Refuses to replace a
+  /// file that is not among the old ones. Names are relative to the folder.
   void commit(const std::vector<std::string>& new_files, const std::vector<std::string>& old_files);
 
 private:
-  void undo();
+  void make_parents();
+  void choose_container();
+  bool exchange(const std::vector<std::string>& old_files);
+  void move_one_by_one(const std::vector<std::string>& new_files, const std::vector<std::string>& old_files);
+  void clean_up();
 
-  std::filesystem::path folder;
-  std::filesystem::path staging;
-  std::filesystem::path retired;                   // where old files wait until the commit is complete
+  std::filesystem::path target;                    // as given, for messages
+  std::filesystem::path folder;                    // what it means, absolute
+  std::filesystem::path container;                 // holds all below; locked
+  std::filesystem::path staging;                   // where new files are written
   std::vector<std::filesystem::path> made_folders; // outermost first
-  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> moves; // from, to
   bool committed = false;
   int lock = -1;
 };

@@ -1,0 +1,182 @@
+#include "noise_pack.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/pack/staged_folder.h"
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <sys/ptrace.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace tilepack;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Contents = std::map<std::string, std::string>;
+
+Contents contents(const fs::path& folder) {
+  Contents all;
+  if (!fs::exists(folder)) return all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    std::ifstream stream(entry.path(), std::ios::binary);
+    all[fs::relative(entry.path(), folder).string()] =
+        entry.is_regular_file() ? std::string(std::istreambuf_iterator<char>(stream), {}) : "folder";
+  }
+  return all;
+}
+
+void put(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+const std::vector<std::string> old_files = {"color_0.png", "color_1.png", "pack.json"};
+const std::vector<std::string> new_files = {"color_0.png", "height_0.png", "pack.json"};
+
+void write_new(
+    const fs::path& folder, const std::function<void()>& before_commit = [] {}) {
+  StagedFolder staged(folder);
+  for (const std::string& name : new_files) put(staged.path() / name, "new " + name);
+  before_commit();
+  std::vector<std::string> replaceable = old_files;
+  replaceable.insert(replaceable.begin(), "height_0.png"); // if the new files are there already
+  staged.commit(new_files, replaceable);
+}
+
+/// Runs `work` in a process that is killed at the n-th stop at a system call, entering or leaving one, after
+/// it stopped itself. False if it ended before.
+bool killed_at(int n, const std::function<void()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+    try {
+      work();
+    } catch (...) {
+      ::_exit(1);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  for (int i = 0; i < n && WIFSTOPPED(status); ++i) {
+    ::ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
+    ::waitpid(child, &status, 0);
+  }
+  if (WIFSTOPPED(status)) {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, &status, 0);
+    return true;
+  }
+  REQUIRE(WIFEXITED(status));
+  REQUIRE(WEXITSTATUS(status) == 0);
+  return false;
+}
+
+bool tracing_is_allowed() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) == 0 ? 0 : 1);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+enum class Target { beside_a_file, missing, beside_a_folder, current };
+
+/// Kills a writer at every step of its commit and clean-up. `at_once`: the folder holds the old or the new
+/// files straight away; otherwise once the next writer came along.
+void kill_everywhere(Target target, bool at_once) {
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary / "p";
+  Contents before, after;
+  for (const std::string& name : new_files) after[name] = "new " + name;
+  if (target != Target::missing) {
+    for (const std::string& name : old_files) before[name] = "old " + name;
+    before["notes.txt"] = after["notes.txt"] = "mine";
+    if (target == Target::beside_a_folder) {
+      before["drafts"] = after["drafts"] = "folder";
+      before["drafts/one.txt"] = after["drafts/one.txt"] = "mine too";
+    }
+  }
+  const auto work = [&] {
+    if (target == Target::current) fs::current_path(folder);
+    write_new(target == Target::current ? "." : folder, [] { ::raise(SIGSTOP); });
+  };
+  int kept = 0, replaced = 0;
+  bool killed = true;
+  for (int n = 1; killed; n += 2) { // on entering; leaving one and entering the next is the same
+
+    fs::remove_all(temporary.path());
+    if (!before.empty()) fs::create_directories(folder / "drafts");
+    if (target != Target::beside_a_folder) fs::remove(folder / "drafts");
+    fs::create_directories(temporary.path());
+    for (const auto& [name, text] : before)
+      if (text != "folder") put(folder / name, text);
+    killed = killed_at(n, work);
+    CAPTURE(n);
+    if (!at_once) {
+      const StagedFolder next(folder);
+    }
+    const Contents found = contents(folder);
+    (found == before ? kept : replaced) += 1;
+    if (found != before) REQUIRE(found == after);
+    write_new(folder);
+    REQUIRE(contents(folder) == after);
+    for (const auto& entry : fs::directory_iterator(temporary.path())) REQUIRE(entry.path() == folder);
+  }
+  CHECK(kept > 1);
+  CHECK(replaced > 3);
+}
+
+} // namespace
+
+TEST_CASE("killed at any system call, a writer leaves the old files or the new ones", "[pack]") {
+  if (!tracing_is_allowed()) return;
+  SECTION("in a folder with somebody else's file") {
+    kill_everywhere(Target::beside_a_file, true);
+  }
+  SECTION("in a new folder") {
+    kill_everywhere(Target::missing, true);
+  }
+  // Here it takes the next writer to put things back.
+  SECTION("in a folder with a folder in it") {
+    kill_everywhere(Target::beside_a_folder, false);
+  }
+  SECTION("in the current folder") {
+    kill_everywhere(Target::current, false);
+  }
+}
+
+TEST_CASE("the folder that takes a folder's place has its permissions, and links lead to it", "[pack]") {
+  const test::TemporaryFolder temporary;
+  fs::create_directories(temporary / "real" / "p");
+  fs::create_directory_symlink("real/p", temporary / "link");
+  fs::permissions(temporary / "real" / "p", fs::perms::owner_all | fs::perms::group_read);
+  write_new(temporary / "link");
+  CHECK(fs::is_symlink(temporary / "link"));
+  CHECK(fs::status(temporary / "real" / "p").permissions() == (fs::perms::owner_all | fs::perms::group_read));
+  CHECK(contents(temporary / "link").size() == 3);
+  write_new((temporary / "link").string() + "/");
+  CHECK(contents(temporary.path()).size() == 2 + 3); // real, p and its files; link counts as p
+}
+
+TEST_CASE("one writer at a time", "[pack]") {
+  const test::TemporaryFolder temporary;
+  const fs::path folder = temporary / "p";
+  for (const bool exists : {false, true}) {
+    if (exists) fs::create_directory(folder);
+    StagedFolder first(folder);
+    CHECK_THROWS_WITH(StagedFolder(folder), Contains("another process is writing") && Contains("/p: "));
+    put(first.path() / "pack.json", "mine");
+    first.commit({"pack.json"}, {});
+    CHECK(contents(folder).at("pack.json") == "mine");
+    fs::remove_all(folder);
+  }
+  CHECK(contents(temporary.path()).empty());
+}
