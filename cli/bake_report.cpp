@@ -21,6 +21,37 @@ std::string counted(Count count, const char* thing) {
   return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
+// "3² + 3² turned by 45.00°, 0.35 % unused, borders match".
+std::string turned_text(const Pack& pack, Size texture) {
+  const RotatedGrid& grid = pack.layout.rotated;
+  const double texels = static_cast<double>(texture.width) * texture.height;
+  const double needed =
+      static_cast<double>(tile_count(pack.tiles)) * pack.tile_size.width * pack.tile_size.height;
+  std::string neighbours;
+  switch (grid.matching) {
+  case Matching::found:
+    neighbours = "neighbours match across all borders";
+    break;
+  case Matching::none:
+    neighbours = "no arrangement has neighbours that all match";
+    break;
+  case Matching::not_found:
+    neighbours = "no arrangement was found whose neighbours all match";
+    break;
+  }
+  return fmt::format("  turned    {} by {:.2f}°, {:.2f} % of the texture wasted; {}: {}\n",
+                     formula(grid.scheme), angle_in_degrees(grid.scheme), 100 * (1 - needed / texels),
+                     neighbours, grid.gutter == 0 ? "no gutter" : fmt::format("gutter {}", grid.gutter));
+}
+
+std::string loss_text(const PackedMap& map) {
+  std::string text;
+  for (const RoundTrip& trip : map.round_trips)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(trip.filter),
+                        trip.psnr ? fmt::format("{:.2f} dB", *trip.psnr) : "exact");
+  return fmt::format("  {:<9} stored turned and read back: {}\n", map.name, text);
+}
+
 std::string escaped(const std::string& path) {
   std::string text;
   for (const char c : path) {
@@ -45,6 +76,16 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
                         counted(made.map_files[m].size(), "level"), counted(map.channels, "channel"),
                         name_of(map.depth), name_of(map.encoding), made.map_files[m].front().file);
   }
+  if (pack.layout.kind == LayoutKind::rotated) {
+    text += turned_text(pack, made.map_files.front().front().size);
+    for (const PackedMap& map : pack.maps) text += loss_text(map);
+  }
+  if (pack.corner_pack)
+    text += pack.corner_pack->width > 0
+                ? fmt::format("  {:<9} {} x {} cells, read up to {} texels from corners\n", "corners",
+                              pack.corner_pack->columns, pack.corner_pack->rows, pack.corner_pack->width)
+                : fmt::format("  {:<9} not read: {}\n", "corners",
+                              "the corners of all tiles agree already, or don't follow from edge colors");
   text += fmt::format("  {:<9} {}, {} x {} tiles\n", "mapping", name_of(pack.mapping.kind),
                       pack.mapping.size.width, pack.mapping.size.height);
   return text;
@@ -60,13 +101,28 @@ std::string bake_report_json(const PackDescription& made, const std::string& fol
   json["layout"] = name_of(pack.layout.kind);
   json["mapping"] = name_of(pack.mapping.kind);
   json["virtual_size"] = {pack.mapping.size.width, pack.mapping.size.height};
+  if (pack.layout.kind == LayoutKind::rotated) {
+    const RotatedGrid& grid = pack.layout.rotated;
+    json["rotated"] = {{"scheme", formula(grid.scheme)},
+                       {"angle", angle_in_degrees(grid.scheme)},
+                       {"gutter", grid.gutter},
+                       {"matching", name_of(grid.matching)}};
+  }
+  if (pack.corner_pack)
+    json["corner_pack"] = {{"columns", pack.corner_pack->columns},
+                           {"rows", pack.corner_pack->rows},
+                           {"width", pack.corner_pack->width}};
   json["maps"] = nlohmann::ordered_json::array();
-  for (const PackedMap& map : pack.maps)
+  for (const PackedMap& map : pack.maps) {
     json["maps"].push_back({{"name", map.name},
                             {"role", name_of(map.role)},
                             {"encoding", name_of(map.encoding)},
                             {"depth", name_of(map.depth)},
                             {"channels", map.channels}});
+    for (const RoundTrip& trip : map.round_trips)
+      json["maps"].back()["round_trip_psnr"][std::string(name_of(trip.filter))] =
+          trip.psnr ? nlohmann::ordered_json(*trip.psnr) : nlohmann::ordered_json(nullptr);
+  }
   json["files"] = made.all_files();
   json["files"].push_back("pack.json");
   return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";

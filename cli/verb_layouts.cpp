@@ -1,12 +1,11 @@
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
-#include "tilepack/pack/packing.h"
+#include "tilepack/pack/round_trip.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,11 +64,6 @@ Json plan_json(const LayoutPlan& plan) {
           {"wasted_percent", share(plan.wasted, texels)}};
 }
 
-// Peak signal to noise of a round trip, in decibels; in JSON, nothing lost is 999.
-double decibels(double rms) {
-  return rms > 0 ? -20.0 * std::log10(rms) : 999.0;
-}
-
 std::vector<RoundTrip> losses(const LayoutPlan& plan, const LayoutsArguments& arguments) {
   if (arguments.sample.empty()) return {};
   ImageFile file = read_image(arguments.sample);
@@ -82,7 +76,7 @@ Json row_json(int tiles, const LayoutsArguments& arguments) {
   for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments))) {
     Json json = plan_json(plan);
     for (const RoundTrip& trip : losses(plan, arguments))
-      json["psnr"][std::string(name_of(trip.filter))] = decibels(trip.rms);
+      json["psnr"][std::string(name_of(trip.filter))] = trip.psnr ? Json(*trip.psnr) : Json(nullptr);
     plans.push_back(std::move(json));
   }
   return {{"tiles", tiles},
@@ -119,9 +113,8 @@ std::string advice_text(int tiles, const LayoutsArguments& arguments) {
     text += fmt::format("  {}  {}  --layout rotated --scheme {},{}{}\n", place++, plan_text(plan),
                         plan.scheme.n, plan.scheme.k, plan.scheme.squares == 2 ? ",2" : "");
     for (const RoundTrip& trip : losses(plan, arguments))
-      text += trip.rms > 0 ? fmt::format("       stored and read back, {}: {:.1f} dB\n", name_of(trip.filter),
-                                         decibels(trip.rms))
-                           : fmt::format("       stored and read back, {}: exact\n", name_of(trip.filter));
+      text += fmt::format("       stored and read back, {}: {}\n", name_of(trip.filter),
+                          trip.psnr ? fmt::format("{:.1f} dB", *trip.psnr) : "exact");
   }
   text += fmt::format("\nPadded to powers of two they would leave {:.2f} % of the texture empty.\n"
                       "The nearest other counts without waste are {} and {}.\n",

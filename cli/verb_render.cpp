@@ -32,6 +32,7 @@ struct RenderArguments {
   std::string encoding;
   int level = 0;
   double scale = 1;
+  double corner_width = default_corner_width;
   int jobs = 0;
   CameraArguments view;
 };
@@ -144,6 +145,7 @@ int run_render(const RenderArguments& arguments, Console& console) {
 
   View view{rect ? *rect : default_rect(pack, arguments.level), arguments.level, arguments.scale, filter};
   view.border = border;
+  view.corner_width = arguments.corner_width;
   view.elliptical = arguments.filter == elliptical;
   const Renderer renderer(pack, map, view, target);
   const Size size = renderer.size();
@@ -187,6 +189,11 @@ Action declare_render(CLI::App& app) {
   app.add_option("--scale", a->scale,
                  "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")
       ->type_name("S");
+  app.add_option("--corner-width", a->corner_width,
+                 "how far round tile corners a corner pack is blended in, in texels of the level, 0 (not at all) "
+                 "to 4096, cut to what the pack allows (default 4)")
+      ->check(CLI::Range(0.0, 4096.0))
+      ->type_name("W");
   app.add_option("--encoding", a->encoding,
                  "srgb or linear (default: that of the map; in EXR linear, in PNG of float color srgb)")
       ->type_name("NAME");

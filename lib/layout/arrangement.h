@@ -1,18 +1,11 @@
 #pragma once
 
-#include "tilepack/layout/rotated_scheme.h"
+#include "tilepack/layout/layout.h"
 #include "tilepack/tileset/tile_colors.h"
 
 #include <vector>
 
 namespace tilepack {
-
-/// The outcome of a search for places that let every tile of a rotated layout agree with its neighbours.
-enum class Matching {
-  found,     ///< filtering across borders reads texels that could lie there in the plane: no gutter needed
-  none,      ///< every arrangement was ruled out
-  not_found, ///< the search ended at its limit
-};
 
 struct Arrangement {
   Matching matching = Matching::none;

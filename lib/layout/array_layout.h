@@ -7,8 +7,15 @@ namespace tilepack {
 /// One tile a layer of a texture array. In the image of a level the layers lie below each other, tile 0 on
 /// top, so that its texels in file order are those of the array, layer by layer, as engines upload them.
 ///
-///   ┌────────┐  layer 0: `border` texels of what may lie round tile 0 (see place_tiles), tile 0 in the
-///   middle ├────────┤  layer 1 └────────┘  …
+///   +--------+
+///   | +----+ |
+///   | | 0  | |   layer 0: tile 0, round it `border` texels of what may lie there (see place_tiles)
+///   | +----+ |
+///   +--------+
+///   | +----+ |
+///   | | 1  | |   layer 1
+///   | +----+ |
+///   +--------+
 ///
 /// With borders, bilinear filtering at a tile's border reads them instead of being clamped. All layers halve
 /// from level to level, and so does the border; the levels end with a border of one texel. `border` is 0 or a

@@ -22,6 +22,18 @@ std::string_view name_of(LayoutKind kind) {
   return "array";
 }
 
+std::string_view name_of(Matching matching) {
+  switch (matching) {
+  case Matching::found:
+    return "found";
+  case Matching::none:
+    return "none";
+  case Matching::not_found:
+    break;
+  }
+  return "not-found";
+}
+
 namespace {
 
 // Axes of a rotated layout's cell in texels of a texture of this size, and the part of it that the tile

@@ -27,11 +27,22 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
+/// The outcome of a search for places that let every tile of a rotated layout agree with its neighbours.
+enum class Matching {
+  found,     ///< filtering across borders reads texels that could lie there in the plane: no gutter needed
+  none,      ///< every arrangement was ruled out
+  not_found, ///< the search ended at its limit
+};
+
+/// As in pack.json: "found", "none", "not-found".
+std::string_view name_of(Matching matching);
+
 /// What a rotated layout adds: the scheme, and the texture it fills.
 struct RotatedGrid {
   RotatedScheme scheme;
   int gutter = 0; ///< texels of level 0 round each tile that are its own continuation, 0..tile side
   Size size;      ///< of the texture at level 0, texels
+  Matching matching = Matching::none; ///< of colors across all borders
   bool operator==(const RotatedGrid&) const = default;
 };
 

@@ -18,7 +18,8 @@ std::vector<RotatedScheme> wanted_schemes(const PlanRequest& request) {
     const ReachableCounts next = reachable_counts(request.tiles);
     throw Error(
         ErrorKind::usage, "layout rotated",
-        fmt::format("no scheme packs {} tiles without waste; the next counts that have one are {} and {}",
+        fmt::format("no scheme packs {} tiles without waste; the next counts that have one are {} and {}, and "
+                    "--layout array holds any",
                     request.tiles, next.below, next.above));
   }
   if (!request.scheme) return schemes;
@@ -68,6 +69,7 @@ std::vector<LayoutPlan> layout_plans(const PlanRequest& request, const TileColor
 Layout planned_layout(const LayoutPlan& plan, int tile_side) {
   Layout layout = rotated_layout(plan.scheme, {tile_side, plan.gutter, false}, plan.arrangement);
   layout.rotated.size = plan.size;
+  layout.rotated.matching = plan.matching;
   return layout;
 }
 

@@ -52,7 +52,7 @@ Layout rotated_layout(const RotatedScheme& scheme, const RotatedTexture& texture
   layout.kind = LayoutKind::rotated;
   layout.columns = lattice.columns();
   layout.rows = lattice.rows();
-  layout.rotated = {scheme, texture.gutter, rotated_texture_size(scheme, texture)};
+  layout.rotated = {scheme, texture.gutter, rotated_texture_size(scheme, texture), Matching::none};
   layout.cells.resize(arrangement.size());
   for (int site = 0; site < lattice.sites(); ++site) {
     const int tile = arrangement[static_cast<std::size_t>(site)];

@@ -204,4 +204,8 @@ bool JsonCursor::is_integer() const {
   return value_at(node).is_number_integer();
 }
 
+bool JsonCursor::is_null() const {
+  return value_at(node).is_null();
+}
+
 } // namespace tilepack

@@ -51,6 +51,7 @@ public:
   bool is_text() const;
   bool is_boolean() const;
   bool is_integer() const;
+  bool is_null() const;
 
   /// The value as JSON, shortened, for messages; never longer than about 50 characters.
   std::string shown() const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/layout/layout.h"
+#include "tilepack/layout/resample.h"
 #include "tilepack/mapping/mapping.h"
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/tileset/tile_set.h"
@@ -20,6 +21,15 @@ constexpr std::int64_t most_texels_a_level = std::int64_t{1} << 28;
 /// The largest seed: whole in every JSON reader, also those that keep numbers as doubles.
 constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;
 
+/// What storing tiles turned costs: level 0 of a map stored with `filter` and read back as tiles_at_level
+/// does, held against the tiles as they were.
+struct RoundTrip {
+  ResampleFilter filter = ResampleFilter::lanczos;
+  std::optional<double> psnr =
+      {}; ///< decibels in hundredths, of stored values against full scale; unset: no loss
+  bool operator==(const RoundTrip&) const = default;
+};
+
 /// One map of a pack: its levels as placed images, finest first, values as stored (rounded to `depth`).
 struct PackedMap {
   std::string name;
@@ -28,6 +38,7 @@ struct PackedMap {
   Depth depth = Depth::u8;
   int channels = 0;
   std::vector<Image> levels;
+  std::vector<RoundTrip> round_trips = {}; ///< rotated layouts: one a filter, in the order of ResampleFilter
 };
 
 /// Who made the pack and how, so that it can be made again. No clock and no path.
@@ -41,8 +52,9 @@ struct Generator {
 
 /// The corner pack of [Wei04, App. B]: one cell a combination of the four edges round a lattice point.
 struct CornerPack {
-  int columns = 0; ///< Kh²
-  int rows = 0;    ///< Kv²
+  int columns = 0;  ///< Kh²
+  int rows = 0;     ///< Kv²
+  double width = 0; ///< the widest it may be blended in round lattice points, texels of level 0
   std::vector<PackedMap> maps;
 };
 

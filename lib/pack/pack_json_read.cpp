@@ -128,7 +128,7 @@ Layout read_array(const JsonCursor& value, int tiles, Size tile_size) {
 
 // Origin and angle follow from the scheme; a file where they differ was not written for this sampler.
 Layout read_rotated(const JsonCursor& value, int tiles, Size tile_size) {
-  value.only({"kind", "n", "k", "squares", "gutter", "size", "cells"});
+  value.only({"kind", "n", "k", "squares", "gutter", "size", "matching", "cells"});
   constexpr int largest_n = 64; // most_tiles
   constexpr int largest_side = 65536;
   RotatedScheme scheme;
@@ -147,7 +147,8 @@ Layout read_rotated(const JsonCursor& value, int tiles, Size tile_size) {
   layout.columns = lattice.columns();
   layout.rows = lattice.rows();
   layout.rotated = {scheme, value.member("gutter").small_integer(0, tile_size.width),
-                    read_size(value.member("size"), largest_side)};
+                    read_size(value.member("size"), largest_side),
+                    named(value.member("matching"), Matching::not_found)};
   layout.cells.push_back({0, 0, 0});
   const Size size = layout.rotated.size;
   // The corner of the tile in a cell at (0, 0): what the gutter adds to every origin.
@@ -218,6 +219,20 @@ LevelFiles read_levels(const JsonCursor& list, const Textures& textures, std::se
   return levels;
 }
 
+std::vector<RoundTrip> read_round_trips(const JsonCursor& value) {
+  std::vector<RoundTrip> trips;
+  std::vector<std::string> known;
+  for (const ResampleFilter filter :
+       {ResampleFilter::bilinear, ResampleFilter::bicubic, ResampleFilter::lanczos}) {
+    known.emplace_back(name_of(filter));
+    const JsonCursor psnr = value.member(known.back());
+    trips.push_back({filter, std::nullopt});
+    if (!psnr.is_null()) trips.back().psnr = psnr.number(-1000, 1000);
+  }
+  value.only(known);
+  return trips;
+}
+
 std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& textures,
                                  std::vector<LevelFiles>& files, std::set<std::string>& used) {
   std::vector<PackedMap> maps;
@@ -225,8 +240,13 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
   const std::size_t count = list.array(1, most_maps);
   for (std::size_t m = 0; m < count; ++m) {
     const JsonCursor value = list.item(m);
-    value.only({"name", "role", "encoding", "depth", "channels", "levels"});
     PackedMap map;
+    if (textures.layout.kind == LayoutKind::rotated) {
+      value.only({"name", "role", "encoding", "depth", "channels", "levels", "round_trip_psnr"});
+      map.round_trips = read_round_trips(value.member("round_trip_psnr"));
+    } else {
+      value.only({"name", "role", "encoding", "depth", "channels", "levels"});
+    }
     const JsonCursor name = value.member("name");
     map.name = name.text();
     if (!is_map_name(map.name))
@@ -309,7 +329,7 @@ void read_mips(const JsonCursor& value, Pack& pack) {
 // The corner pack is looked up with the number of a map of the pack, so both hold the same maps.
 CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vector<LevelFiles>& files,
                             std::set<std::string>& used) {
-  value.only({"columns", "rows", "maps"});
+  value.only({"columns", "rows", "width", "maps"});
   if (coloring_of(pack.tiles) == Coloring::corner)
     value.fail("is there, but corner-colored tiles need none; remove the field");
   CornerPack packed;
@@ -317,6 +337,7 @@ CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vect
   const int rows = pack.colors.vertical * pack.colors.vertical;
   packed.columns = value.member("columns").small_integer(columns, columns);
   packed.rows = value.member("rows").small_integer(rows, rows);
+  packed.width = value.member("width").number(0, 0.5 * std::min(pack.tile_size.width, pack.tile_size.height));
   Layout grid;
   grid.columns = columns;
   grid.rows = rows;

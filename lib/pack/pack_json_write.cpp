@@ -98,6 +98,7 @@ Json layout_json(const Layout& layout, Size tile_size) {
     json["squares"] = scheme.squares;
     json["gutter"] = layout.rotated.gutter;
     json["size"] = size_json(layout.rotated.size);
+    json["matching"] = name_of(layout.rotated.matching);
   } else if (layout.kind == LayoutKind::array) {
     for (const Cell& cell : layout.cells) cells.push_back({{"tile", cell.tile}, {"layer", cell.row}});
     json["layers"] = layout.rows;
@@ -126,6 +127,9 @@ Json maps_json(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>
                     {"depth", name_of(maps[m].depth)},
                     {"channels", maps[m].channels},
                     {"levels", std::move(levels)}});
+    for (const RoundTrip& trip : maps[m].round_trips)
+      list.back()["round_trip_psnr"][std::string(name_of(trip.filter))] =
+          trip.psnr ? Json(*trip.psnr) : Json(nullptr);
   }
   return list;
 }
@@ -186,7 +190,8 @@ void append_files(std::vector<std::string>& list, const std::vector<LevelFiles>&
 
 std::vector<PackedMap> without_levels(const std::vector<PackedMap>& maps) {
   std::vector<PackedMap> bare;
-  for (const PackedMap& m : maps) bare.push_back({m.name, m.role, m.encoding, m.depth, m.channels, {}});
+  for (const PackedMap& m : maps)
+    bare.push_back({m.name, m.role, m.encoding, m.depth, m.channels, {}, m.round_trips});
   return bare;
 }
 
@@ -216,7 +221,7 @@ PackDescription described(const Pack& pack) {
   result.map_files = named_files(pack.maps, "");
   if (pack.corner_pack) {
     const CornerPack& corner = *pack.corner_pack;
-    bare.corner_pack = CornerPack{corner.columns, corner.rows, without_levels(corner.maps)};
+    bare.corner_pack = CornerPack{corner.columns, corner.rows, corner.width, without_levels(corner.maps)};
     result.corner_files = named_files(corner.maps, "corner.");
   }
   if (pack.mapping.kind == MappingKind::index) result.index_file = "index.png";
@@ -241,6 +246,7 @@ std::string pack_json(const PackDescription& description) {
   if (pack.corner_pack)
     json["corner_pack"] = {{"columns", pack.corner_pack->columns},
                            {"rows", pack.corner_pack->rows},
+                           {"width", pack.corner_pack->width},
                            {"maps", maps_json(pack.corner_pack->maps, description.corner_files)}};
   json["mips"] = mips_json(pack);
   std::string text;

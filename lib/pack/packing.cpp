@@ -6,12 +6,12 @@
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/index_fill.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/pack/round_trip.h"
+#include "tilepack/tileset/border_agreement.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace tilepack {
 namespace {
@@ -170,7 +170,7 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
   const int maps = static_cast<int>(set.maps.size());
   if (options.corner_pack) {
     const CornerGrid grid = corner_grid(set.colors.horizontal, set.colors.vertical);
-    pack.corner_pack = CornerPack{grid.columns, grid.rows, {}};
+    pack.corner_pack = CornerPack{grid.columns, grid.rows, agreed_corner_width(set), {}};
   }
   for (int m = 0; m < maps; ++m) {
     report(progress, "mips", static_cast<double>(m) / maps);
@@ -183,6 +183,8 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
       map.levels.push_back(quantised(
           place_tiles(tiles, set.tiles, pack.layout, set.tile_size, level, {options.turn_filter, {}}),
           map.depth));
+      if (level == 0 && pack.layout.kind == LayoutKind::rotated)
+        map.round_trips = round_trips(tiles, set.tiles, pack.layout, set.tile_size);
       if (pack.corner_pack)
         corners.levels.push_back(quantised(
             corner_atlas(tiles.tiles, corner_grid(set.colors.horizontal, set.colors.vertical)), map.depth));
@@ -191,45 +193,6 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
     if (pack.corner_pack) pack.corner_pack->maps.push_back(std::move(corners));
   }
   return pack;
-}
-
-std::vector<RoundTrip> round_trips(const SampleMap& sample, const LayoutPlan& plan, int tile_side) {
-  const Size room{sample.image.width() - tile_side, sample.image.height() - tile_side};
-  if (room.width < 0 || room.height < 0)
-    throw Error(ErrorKind::invalid_content, sample.name,
-                fmt::format("{} x {} texels hold no tile of {}", sample.image.width(), sample.image.height(),
-                            tile_side));
-  TileMap map{sample.name, sample.role, sample.encoding, sample.depth, {}};
-  const int tiles = tile_count(plan.scheme);
-  for (int tile = 0; tile < tiles; ++tile) {
-    const auto place = [&](const char* axis, int free) {
-      return static_cast<int>(
-          random_below(0, axis, static_cast<std::uint64_t>(tile), static_cast<std::uint32_t>(free + 1)));
-    };
-    map.tiles.push_back(crop(
-        sample.image, {place("window x", room.width), place("window y", room.height), tile_side, tile_side}));
-  }
-  const Size tile_size{tile_side, tile_side};
-  const Layout layout = planned_layout(plan, tile_side);
-  const TileColors colors = std::vector<EdgeTile>(static_cast<std::size_t>(tiles));
-  std::vector<RoundTrip> results;
-  for (const ResampleFilter filter :
-       {ResampleFilter::bilinear, ResampleFilter::bicubic, ResampleFilter::lanczos}) {
-    const Image texture =
-        quantised(place_tiles(map, colors, layout, tile_size, 0, {filter, Outside::own}), map.depth);
-    const std::vector<Image> back = tiles_at_level(texture, layout, tile_size, 0);
-    double sum = 0;
-    double count = 0;
-    for (std::size_t id = 0; id < back.size(); ++id)
-      for (std::size_t i = 0; i < back[id].data().size(); ++i) {
-        const double d =
-            static_cast<double>(back[id].data()[i]) - static_cast<double>(map.tiles[id].data()[i]);
-        sum += d * d;
-        ++count;
-      }
-    results.push_back({filter, std::sqrt(sum / count)});
-  }
-  return results;
 }
 
 } // namespace tilepack

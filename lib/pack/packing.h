@@ -40,14 +40,4 @@ void check_packing(const PackingOptions& options, const TileColors& tiles, Size 
 /// PNG is sRGB, EXR linear.
 Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, const Progress& progress = {});
 
-/// What storing tiles turned costs: the error of level 0, read back as tiles_at_level does, for each filter.
-struct RoundTrip {
-  ResampleFilter filter = ResampleFilter::lanczos;
-  double rms = 0; ///< over all tiles and channels, of stored values; full scale is 1
-};
-
-/// Measured on windows of `sample` spread over it, as many as the plan has tiles, nothing read beyond a
-/// window. Throws Error (invalid_content) if the sample is smaller than a tile.
-std::vector<RoundTrip> round_trips(const SampleMap& sample, const LayoutPlan& plan, int tile_side);
-
 } // namespace tilepack

@@ -9,10 +9,6 @@
 namespace tilepack {
 namespace {
 
-// A bilinear filter that crosses a border within 1.5 texels of a corner reads a corner texel beyond it:
-// points up to sqrt(0.5² + 1.5²) texels from the corner.
-constexpr double corner_reach = 1.5811388300841898;
-
 const EdgeTile& edge_tile(const Pack& pack, std::int64_t x, std::int64_t y) {
   const auto& tiles = std::get<std::vector<EdgeTile>>(pack.tiles);
   return tiles[static_cast<std::size_t>(tile_at(pack.mapping, pack.colors, x, y))];
@@ -22,12 +18,12 @@ const EdgeTile& edge_tile(const Pack& pack, std::int64_t x, std::int64_t y) {
 
 double corner_weight(double fraction_x, double fraction_y, Size tile, double width) {
   const double outer = std::min(width, 0.5 * std::min(tile.width, tile.height));
-  const double inner = std::min(corner_reach, 0.5 * outer);
+  const double inner = 0.5 * outer;
   const double x = (fraction_x < 0.5 ? fraction_x : 1.0 - fraction_x) * tile.width;
   const double y = (fraction_y < 0.5 ? fraction_y : 1.0 - fraction_y) * tile.height;
   const double distance = std::sqrt(x * x + y * y);
-  if (distance <= inner) return 1.0;
   if (!(distance < outer)) return 0.0;
+  if (distance <= inner) return 1.0;
   const double t = (outer - distance) / (outer - inner);
   return t * t * (3.0 - 2.0 * t); // no slope at either end
 }
@@ -35,6 +31,11 @@ double corner_weight(double fraction_x, double fraction_y, Size tile, double wid
 CornerTexels::CornerTexels(const Pack& of_pack, int map, double width, int first_level, int last_level)
     : pack(&of_pack), texels(PackTexels::of_corners(of_pack, map, first_level, last_level)),
       blend_width(width) {}
+
+double CornerTexels::weight(int level, double fraction_x, double fraction_y) const {
+  const double widest = pack->corner_pack->width / static_cast<double>(1 << level);
+  return corner_weight(fraction_x, fraction_y, texels.tile_size(level), std::min(blend_width, widest));
+}
 
 // The corner is lattice point (x, y). Edges that end in it: on its left the north edge of cell (x-1, y), on
 // its right that of (x, y), above it the west edge of (x, y-1), below it that of (x, y). In the corner pack

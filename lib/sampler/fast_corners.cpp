@@ -16,6 +16,7 @@ std::unique_ptr<const Pack> with_one_map(const Pack& pack, int map) {
   result->maps = {pack.maps[static_cast<std::size_t>(map)]};
   result->corner_pack = {pack.corner_pack->columns,
                          pack.corner_pack->rows,
+                         pack.corner_pack->width,
                          {pack.corner_pack->maps[static_cast<std::size_t>(map)]}};
   return result;
 }
@@ -23,7 +24,7 @@ std::unique_ptr<const Pack> with_one_map(const Pack& pack, int map) {
 } // namespace
 
 FastCorners::FastCorners(const Pack& of_pack, int map)
-    : pack(with_one_map(of_pack, map)), sampler(*pack, 0) {}
+    : pack(with_one_map(of_pack, map)), sampler(*pack, 0), corners(*pack, 0, default_corner_width) {}
 
 void FastCorners::blend_in(const SampleBatch& batch, Filter filter, std::span<float* const> out) const {
   const int levels = static_cast<int>(pack->maps[0].levels.size());
@@ -37,8 +38,7 @@ void FastCorners::blend_in(const SampleBatch& batch, Filter filter, std::span<fl
     const double level = batch.level ? static_cast<double>(batch.level[i]) : 0.0;
     const LevelBlend blend = level_blend(level, levels, filter);
     const auto near_corner = [&](int of_level) {
-      return corner_weight(x.fraction, y.fraction, level_size(pack->tile_size, of_level),
-                           default_corner_width) > 0;
+      return corners.weight(of_level, x.fraction, y.fraction) > 0;
     };
     if (!near_corner(blend.fine) && !near_corner(blend.coarse)) continue;
     sampler.sample(x, y, level, filter, channels);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/sampler/corner_blend.h"
 #include "tilepack/sampler/fast_sampler.h"
 #include "tilepack/sampler/reference_sampler.h"
 
@@ -19,6 +20,7 @@ public:
 private:
   std::unique_ptr<const Pack> pack; // of one map; stays where the sampler finds it
   ReferenceSampler sampler;
+  CornerTexels corners; // for its weight
 };
 
 } // namespace tilepack

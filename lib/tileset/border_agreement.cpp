@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <utility>
 
 namespace tilepack {
@@ -58,6 +59,32 @@ void for_each_pair(const TileSet& set, Use&& use) {
       if (!fresh) use(tile, known->second, side);
     }
   }
+}
+
+// The colors of the edges that meet at a corner, and its texels counted from there: `east` and `south` tell
+// which corner it is.
+struct Corner {
+  bool east;
+  bool south;
+
+  std::pair<int, int> colors(const BorderColors& b) const {
+    return {south ? b.south : b.north, east ? b.east : b.west};
+  }
+  std::span<const float> texel(const Image& tile, int i, int j) const {
+    return tile.texel(east ? tile.width() - 1 - i : i, south ? tile.height() - 1 - j : j);
+  }
+};
+
+constexpr std::array corners{Corner{false, false}, Corner{true, false}, Corner{false, true},
+                             Corner{true, true}};
+
+bool corner_texels_shared(const TileSet& set) {
+  for (const TileMap& map : set.maps)
+    for (const Corner& corner : corners)
+      for (const Image& tile : map.tiles)
+        if (!std::ranges::equal(corner.texel(tile, 0, 0), corner.texel(map.tiles.front(), 0, 0)))
+          return false;
+  return true;
 }
 
 } // namespace
@@ -119,6 +146,35 @@ int agreed_guard(const TileSet& set) {
     if (!agree) return depth;
   }
   return most;
+}
+
+double agreed_corner_width(const TileSet& set) {
+  if (coloring_of(set.tiles) == Coloring::corner || corner_texels_shared(set)) return 0;
+  const std::vector<BorderColors> borders = border_colors(set.tiles);
+  const int half = std::min(set.tile_size.width, set.tile_size.height) / 2;
+  double nearest = half; // lookup that reads a texel in which such tiles differ
+  for (const Corner& corner : corners) {
+    std::map<std::pair<int, int>, std::size_t> first;
+    for (std::size_t id = 0; id < borders.size(); ++id) {
+      const auto [known, fresh] = first.try_emplace(corner.colors(borders[id]), id);
+      if (fresh) continue;
+      for (const TileMap& map : set.maps)
+        for (int j = 0; j <= half; ++j)
+          for (int i = 0; i <= half; ++i) {
+            // A texel counts for lookups less than one texel from its centre along both axes.
+            const double x = std::max(0.0, i - 0.5);
+            const double y = std::max(0.0, j - 0.5);
+            const double distance = std::sqrt(x * x + y * y);
+            if (distance < nearest && !std::ranges::equal(corner.texel(map.tiles[id], i, j),
+                                                          corner.texel(map.tiles[known->second], i, j)))
+              nearest = distance;
+          }
+    }
+  }
+  constexpr double mending =
+      3.25; // twice sqrt(0.5² + 1.5²), where a filter last reads a corner beyond a border
+  const double width = std::max(nearest, std::min({2 * nearest, mending, static_cast<double>(half)}));
+  return std::floor(4 * width) / 4;
 }
 
 } // namespace tilepack

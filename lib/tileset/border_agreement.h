@@ -32,4 +32,14 @@ std::vector<BorderDifference> border_differences(const TileSet& set, double tole
 /// most an eighth of the shorter side; near their ends rows are compared up to where another border's begin.
 int agreed_guard(const TileSet& set);
 
+/// How far round lattice points a corner pack is to be blended in (sampler/corner_blend.h), in quarters of a
+/// texel. Let tiles with the same two edge colors at a corner have the same texels, in all maps, for lookups
+/// up to r texels from it. Then the width is r, at most half the shorter side, and the corner pack adds no
+/// error. Where r is less than the 3.2 texels that mending a corner takes, it is up to 2 r, so that the
+/// corner pack alone counts up to r: what is gained at the corner outweighs what is lost between r and 2 r.
+///
+/// 0 where a corner pack is of no use: all tiles have the same corner texels, so that any tile may lie
+/// beyond; r is 0; or colors belong to corners.
+double agreed_corner_width(const TileSet& set);
+
 } // namespace tilepack

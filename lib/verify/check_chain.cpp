@@ -1,3 +1,4 @@
+#include "tilepack/layout/place_tiles.h"
 #include "tilepack/mip/downsample.h"
 #include "tilepack/verify/level_view.h"
 #include "tilepack/verify/structure_checks.h"
@@ -69,10 +70,77 @@ std::optional<double> rms_inside(const LevelView& fine, const LevelView& coarse,
   return std::sqrt(sum / (static_cast<double>(to->width - 2) * (to->height - 2) * fine.image->channels()));
 }
 
+// The mean step between texels next to each other, as a root of squares: what moving a tile by a part of a
+// texel changes at most.
+double rms_step(const Image& image) {
+  double sum = 0;
+  double count = 0;
+  const auto add = [&](std::span<const float> a, std::span<const float> b) {
+    for (std::size_t c = 0; c < a.size(); ++c) {
+      const double step = static_cast<double>(a[c]) - static_cast<double>(b[c]);
+      if (std::isfinite(step)) sum += step * step;
+      ++count;
+    }
+  };
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      if (x > 0) add(image.texel(x, y), image.texel(x - 1, y));
+      if (y > 0) add(image.texel(x, y), image.texel(x, y - 1));
+    }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+Image inner(const Image& tile) {
+  return crop(tile, {1, 1, tile.width() - 2, tile.height() - 2});
+}
+
+double rms_difference(const Image& a, const Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.data().size(); ++i) {
+    const double difference = static_cast<double>(a.data()[i]) - static_cast<double>(b.data()[i]);
+    if (std::isfinite(difference)) sum += difference * difference;
+  }
+  return std::sqrt(sum / static_cast<double>(a.data().size()));
+}
+
+// Levels of turned tiles: the tiles read back from them.
+std::vector<Issue> check_turned_map(const Pack& pack, const PackedMap& map) {
+  std::vector<Issue> issues;
+  const int levels = std::min(static_cast<int>(map.levels.size()), level_count(pack.tile_size));
+  const Encoding encoding = map.role == Role::color ? map.encoding : Encoding::linear;
+  const double range = full_range(map);
+  const auto tiles_of_level = [&](int level) -> std::vector<Image> {
+    const Image& image = map.levels[static_cast<std::size_t>(level)];
+    if (!has_right_size(pack, image, level)) return {};
+    return tiles_at_level(image, pack.layout, pack.tile_size, level);
+  };
+  std::vector<Image> fine = tiles_of_level(0);
+  for (int level = 1; level < levels; ++level) {
+    std::vector<Image> coarse = tiles_of_level(level);
+    for (std::size_t id = 0; id < std::min(fine.size(), coarse.size()); ++id) {
+      if (coarse[id].width() < 3) break;
+      const Image boxes =
+          inner(from_linear(halved(decoded(fine[id], encoding, map.depth), Weighting::plain), encoding));
+      const double rms = rms_difference(boxes, inner(coarse[id]));
+      const double allowed = largest_rms * range + rms_step(boxes);
+      if (rms > allowed)
+        issues.push_back(
+            {Rule::level_stale, fmt::format("{}, tile {}", place_name(map, level), id),
+             fmt::format("differs from the boxes of level {} by {:.3g}/255 of the range (RMS)", level - 1,
+                         rms / range * 255),
+             fmt::format("at most {:.2g}/255, what turning and rounding explain", allowed / range * 255)});
+    }
+    fine = std::move(coarse);
+  }
+  return issues;
+}
+
 std::vector<Issue> check_map(const Pack& pack, const PackedMap& map) {
   std::vector<Issue> issues;
   const int levels = std::min(static_cast<int>(map.levels.size()), level_count(pack.tile_size));
   if (levels < 2 || !plain_boxes(map)) return issues;
+  if (pack.layout.kind == LayoutKind::rotated)
+    return places_are_sound(pack.layout, tile_count(pack.tiles)) ? check_turned_map(pack, map) : issues;
   const double range = full_range(map);
   const auto tiles = static_cast<std::size_t>(tile_count(pack.tiles));
   LevelView fine = view_of(pack, map, 0);

@@ -132,9 +132,11 @@ void check_neighbours(const Pack& pack, std::vector<Issue>& issues) {
     }
 }
 
-// Without gutters a filter reads on into the neighbours of a turned tile.
+// Without gutters a filter reads on into the neighbours of a turned tile, and with them it may where the pack
+// says that neighbours match.
 void check_turned_neighbours(const Pack& pack, std::vector<Issue>& issues) {
-  if (pack.layout.rotated.gutter > 0) return;
+  const bool promised = pack.layout.rotated.matching == Matching::found;
+  if (pack.layout.rotated.gutter > 0 && !promised) return;
   const RotatedLattice lattice(pack.layout.rotated.scheme);
   for (const Cell& cell : pack.layout.cells)
     if (lattice.site_with(cell.column, cell.row) < 0) {
@@ -153,7 +155,8 @@ void check_turned_neighbours(const Pack& pack, std::vector<Issue>& issues) {
                       fmt::format("layout, tile {} and its {} neighbour", tile, name_of(side)),
                       fmt::format("tile {} {} beside tile {} {}", tile, border_text(pack.tiles, tile, side),
                                   neighbour, border_text(pack.tiles, neighbour, facing)),
-                      "the same color on both sides, or a gutter"});
+                      promised ? "the same color on both sides, as layout.matching says"
+                               : "the same color on both sides, or a gutter"});
   };
   for (int tile = 0; tile < static_cast<int>(around.size()); ++tile) {
     compare(tile, Side::east, around[static_cast<std::size_t>(tile)].e, Side::west);

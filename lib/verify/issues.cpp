@@ -88,6 +88,9 @@ constexpr std::array rule_table{
              "tiles of one edge color differ along that edge, and no guard is promised",
              "Filtering across the border reads texels of another tile; the pack promises no guard band.",
              "Bake with --guard 1 or more."},
+    RuleText{Rule::layer_border, error, "the texels round a layer are not those of tiles that may lie there",
+             "Filters show a seam along the tile's border.",
+             "Undo the edit of that layer or of the tiles beside it, or bake again."},
 
     RuleText{Rule::table_not_permutation, error, "the hash table is no permutation of 0 to n-1",
              "Some colors come up too often, others never.", bake_again},

@@ -54,6 +54,7 @@ enum class Rule : int {
   sanitized_edges = 405,
   sanitized_corners = 406,
   edge_texels_unpromised = 407,
+  layer_border = 408,
 
   table_not_permutation = 501,
   table_repeats_rows = 502,

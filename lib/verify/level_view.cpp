@@ -1,9 +1,13 @@
 #include "tilepack/verify/level_view.h"
 
+#include "tilepack/layout/rotated_lattice.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace tilepack {
 namespace {
@@ -29,6 +33,24 @@ bool inside(const Image& image, const Rect& rect) {
 
 bool has_right_size(const Pack& pack, const Image& image, int level) {
   return !image.empty() && image.size() == texture_size(pack.layout, pack.tile_size, level);
+}
+
+bool places_are_sound(const Layout& layout, int tiles) {
+  if (static_cast<int>(layout.cells.size()) != tiles || tiles == 0) return false;
+  std::optional<RotatedLattice> lattice;
+  if (layout.kind == LayoutKind::rotated) {
+    if (tile_count(layout.rotated.scheme) != tiles) return false;
+    lattice.emplace(layout.rotated.scheme);
+  }
+  std::set<std::pair<int, int>> taken;
+  for (int id = 0; id < tiles; ++id) {
+    const Cell& cell = layout.cells[static_cast<std::size_t>(id)];
+    const bool inside =
+        lattice ? lattice->site_with(cell.column, cell.row) >= 0
+                : cell.column >= 0 && cell.column < layout.columns && cell.row >= 0 && cell.row < layout.rows;
+    if (cell.tile != id || !inside || !taken.emplace(cell.column, cell.row).second) return false;
+  }
+  return true;
 }
 
 std::string place_name(const PackedMap& map, int level) {

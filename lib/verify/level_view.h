@@ -24,6 +24,10 @@ LevelView view_of(const Pack& pack, const PackedMap& map, int level);
 /// The size the layout asks for at this level, and not empty.
 bool has_right_size(const Pack& pack, const Image& image, int level);
 
+/// Whether the layout has one place of its own for each of `tiles` tiles, in the order of ids, so that tiles
+/// can be cut out of its textures.
+bool places_are_sound(const Layout& layout, int tiles);
+
 /// "map color, level 2".
 std::string place_name(const PackedMap& map, int level);
 

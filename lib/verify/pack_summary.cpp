@@ -76,8 +76,9 @@ bool edge_colored(const Pack& pack) {
 std::string layout_text(const Layout& layout) {
   const RotatedGrid& rotated = layout.rotated;
   if (layout.kind == LayoutKind::rotated)
-    return fmt::format("rotated, {} turned by {:.3f} degrees, gutter {},", formula(rotated.scheme),
-                       angle_in_degrees(rotated.scheme), rotated.gutter);
+    return fmt::format("rotated, {} turned by {:.3f} degrees, gutter {}, neighbours {},",
+                       formula(rotated.scheme), angle_in_degrees(rotated.scheme), rotated.gutter,
+                       rotated.matching == Matching::found ? "match" : "don't match");
   if (layout.kind == LayoutKind::array)
     return fmt::format("array, {} layers, border {},", layout.rows, layout.border);
   return fmt::format("{}, {} x {} cells", name_of(layout.kind), layout.columns, layout.rows);
@@ -119,6 +120,12 @@ std::string maps_text(const PackSummary& summary, const std::vector<PackedMap>& 
         map.name, name_of(map.role), name_of(map.encoding), map.channels, map.channels == 1 ? "" : "s",
         name_of(map.depth), files[m].size(), files[m].size() == 1 ? "" : "s", fine.width, fine.height,
         coarse.width, coarse.height, bytes_text(static_cast<double>(file_bytes(summary, files[m]))));
+    for (const RoundTrip& trip : map.round_trips)
+      text += fmt::format(
+          "{}{} {}",
+          trip.filter == ResampleFilter::bilinear ? "            stored turned and read back: " : ", ",
+          name_of(trip.filter), trip.psnr ? fmt::format("{:.2f} dB", *trip.psnr) : "exact");
+    if (!map.round_trips.empty()) text += "\n";
   }
   return text;
 }
@@ -163,6 +170,9 @@ Json maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
                     {"depth", name_of(maps[m].depth)},
                     {"channels", maps[m].channels},
                     {"levels", std::move(levels)}});
+    for (const RoundTrip& trip : maps[m].round_trips)
+      list.back()["round_trip_psnr"][std::string(name_of(trip.filter))] =
+          trip.psnr ? Json(*trip.psnr) : Json(nullptr);
   }
   return list;
 }
@@ -236,8 +246,9 @@ std::string summary_text(const PackSummary& summary) {
   text += grid_text(pack);
   text += "maps\n" + maps_text(summary, pack.maps, description.map_files);
   if (pack.corner_pack) {
-    text += fmt::format("corners   a pack of {} x {} cells for lattice points\n", pack.corner_pack->columns,
-                        pack.corner_pack->rows);
+    text +=
+        fmt::format("corners   a pack of {} x {} cells for lattice points, read up to {} texels from them\n",
+                    pack.corner_pack->columns, pack.corner_pack->rows, pack.corner_pack->width);
     text += maps_text(summary, pack.corner_pack->maps, description.corner_files);
   }
   text += mapping_text(pack);
@@ -293,9 +304,17 @@ std::string summary_json(const PackSummary& summary) {
         {"version", pack.generator.version},
         {"seed", pack.generator.seed},
         {"options", std::move(options)}}}};
+  if (pack.layout.kind == LayoutKind::rotated) {
+    const RotatedGrid& grid = pack.layout.rotated;
+    json["layout"]["rotated"] = {{"scheme", formula(grid.scheme)},
+                                 {"angle", angle_in_degrees(grid.scheme)},
+                                 {"gutter", grid.gutter},
+                                 {"matching", name_of(grid.matching)}};
+  }
   if (pack.corner_pack)
     json["corner_pack"] = {{"columns", pack.corner_pack->columns},
                            {"rows", pack.corner_pack->rows},
+                           {"width", pack.corner_pack->width},
                            {"maps", maps_json(summary, pack.corner_pack->maps, description.corner_files)}};
   if (summary.seams) json["seams"] = seams_json(*summary.seams);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

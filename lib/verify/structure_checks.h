@@ -33,9 +33,13 @@ std::vector<Issue> check_levels(const Pack& pack);
 /// With colored edges the squares where two bands cross are free; with colored corners they are shared too.
 std::vector<Issue> check_texels(const Pack& pack);
 
+/// Texture arrays: round each layer's tile the texels that place_tiles puts there.
+std::vector<Issue> check_layer_borders(const Pack& pack);
+
 /// Coarser levels made from finer ones: a warning where a tile's inside is not the boxes of the level above
 /// it, as when one level was painted over and the others were not built again. Maps of 1 or 3 channels that
-/// are averaged as they are: color, height, data.
+/// are averaged as they are: color, height, data. Turned tiles are read back first, which blurs them, so only
+/// differences beyond the steps between a tile's own texels count.
 std::vector<Issue> check_chain(const Pack& pack);
 
 /// All of these, in this order.

@@ -154,13 +154,13 @@ int main(int argc, char** argv) {
     return 1;
   }
   try {
-    const double width = argc > 2 ? std::atof(argv[2]) : default_corner_width;
     PackingOptions options;
     options.corner_pack = true;
     options.mips.mode = MipMode::box;
     options.virtual_size = {cells, cells};
     options.mapping = MappingKind::mix;
     const Pack pack = packed(tiles_with_corner_features(), options, 1);
+    const double width = argc > 2 ? std::atof(argv[2]) : default_corner_width;
     fmt::print("Largest / RMS error, blend width {} texels\n\n| level | no handling | corner pack alone | "
                "blended |\n"
                "|---|---|---|---|\n",

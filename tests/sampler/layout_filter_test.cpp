@@ -20,10 +20,11 @@ constexpr int cells = 12; // a side of the virtual texture
 // The stored virtual texture, filtered as graphics hardware would filter it.
 class Truth {
 public:
-  explicit Truth(const Pack& pack)
-      : texture(
-            to_linear(virtual_texture(pack, 0, 0, {0, 0, cells * tile_size.width, cells * tile_size.height}),
-                      Encoding::srgb)) {}
+  explicit Truth(const Pack& pack, int cells_a_side = cells)
+      : texture(to_linear(
+            virtual_texture(pack, 0, 0,
+                            {0, 0, cells_a_side * tile_size.width, cells_a_side * tile_size.height}),
+            Encoding::srgb)) {}
 
   std::array<double, 3> at(int cell_x, int cell_y, double x, double y) const {
     const Taps across = bilinear_taps(x, tile_size.width);
@@ -101,6 +102,39 @@ TEST_CASE("bilinear through the de Bruijn torus is that of the virtual texture t
   }
 }
 
+TEST_CASE("in every tile and at every lattice point, corner-colored packs are filtered without any error") {
+  constexpr int side = 40;
+  for (const int colors : {2, 3, 4}) {
+    CAPTURE(colors);
+    PackingOptions options = options_for(LayoutKind::de_bruijn);
+    options.virtual_size = {side, side};
+    const Pack pack = packed(framed_set(complete_corner_set(colors), tile_size, 5), options, 9);
+    const Truth truth(pack, side);
+    const ReferenceSampler sampler(pack, 0);
+    int wrong = 0;
+    const auto compare = [&](int cell_x, int cell_y, double x, double y) {
+      std::array<double, 3> value{};
+      sampler.sample({cell_x, x}, {cell_y, y}, 0, Filter::bilinear, value);
+      if (value != truth.at(cell_x, cell_y, x, y)) ++wrong;
+    };
+    std::vector<bool> seen(static_cast<std::size_t>(tile_count(pack.tiles)));
+    for (int cell_y = 0; cell_y < side; ++cell_y)
+      for (int cell_x = 0; cell_x < side; ++cell_x) {
+        for (const double x : {0.01, 0.1, 0.93})
+          for (const double y : {0.02, 0.17, 0.99}) compare(cell_x, cell_y, x, y);
+        const auto tile = static_cast<std::size_t>(tile_at(pack.mapping, pack.colors, cell_x, cell_y));
+        if (seen[tile]) continue;
+        seen[tile] = true;
+        // Four places a texel along each axis, texel centres and borders among them.
+        for (int j = 0; j < 4 * tile_size.height; ++j)
+          for (int i = 0; i < 4 * tile_size.width; ++i)
+            compare(cell_x, cell_y, i / (4.0 * tile_size.width), j / (4.0 * tile_size.height));
+      }
+    CHECK(wrong == 0);
+    CHECK(std::find(seen.begin(), seen.end(), false) == seen.end());
+  }
+}
+
 TEST_CASE("an edge pack is exact along edges and wrong at corners; the corner pack mends these") {
   for (const ColorCounts colors : {ColorCounts{2, 2, 0}, ColorCounts{3, 2, 0}, ColorCounts{3, 3, 0}}) {
     CAPTURE(colors.horizontal, colors.vertical);
@@ -111,11 +145,46 @@ TEST_CASE("an edge pack is exact along edges and wrong at corners; the corner pa
     CHECK(plain.edge == 0.0);
     CHECK(plain.corner > 0.1);
     options.corner_pack = true;
-    const Pack pack = packed(set, options, 9);
+    Pack pack = packed(set, options, 9);
+    pack.corner_pack->width = 4; // as wide as mending takes, whatever it does elsewhere
     CHECK(pack.corner_pack->columns == colors.horizontal * colors.horizontal);
     CHECK(pack.corner_pack->maps.at(0).levels.size() == pack.maps.at(0).levels.size());
     CHECK(largest_errors(pack).corner == 0.0);
-    CHECK(largest_errors(pack, 0).corner == plain.corner); // width 0 leaves it aside
+    CHECK(largest_errors(pack, 0.0).corner == plain.corner); // width 0 leaves it aside
+  }
+}
+
+TEST_CASE("as wide as the pack allows, the corner pack never adds to the largest error") {
+  const TileSet framed = framed_set(complete_edge_set(2, 2), tile_size, 5);
+  // Corners that all tiles share, and quarters that follow from the two edges at their corner.
+  TileSet shared = framed;
+  TileSet quartered = framed;
+  for (std::size_t id = 0; id < 16; ++id) {
+    const EdgeTile colors = std::get<std::vector<EdgeTile>>(framed.tiles)[id];
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) {
+        const bool corner = (x == 0 || x == 7) && (y == 0 || y == 7);
+        if (corner) std::ranges::fill(shared.maps[0].tiles[id].texel(x, y), 1.0f);
+        const int across = y < 4 ? colors.north : colors.south;
+        const int down = x < 4 ? colors.west : colors.east;
+        for (std::size_t c = 0; c < 3; ++c)
+          quartered.maps[0].tiles[id].texel(x, y)[c] =
+              framed.maps[0].tiles[static_cast<std::size_t>(across * 2 + down)].texel(x, y)[c];
+      }
+  }
+  PackingOptions options = options_for(LayoutKind::tile_index);
+  options.corner_pack = true;
+  struct Case {
+    const TileSet* set;
+    double width;
+    double at_most; // of the largest error without a corner pack
+  };
+  for (const Case& c : {Case{&framed, 1.25, 0.5}, Case{&shared, 0.0, 0.0}, Case{&quartered, 3.5, 0.0}}) {
+    const Pack pack = packed(*c.set, options, 9);
+    CAPTURE(c.width);
+    CHECK(pack.corner_pack->width == c.width);
+    const auto largest = [](const LargestErrors& e) { return std::max({e.interior, e.edge, e.corner}); };
+    CHECK(largest(largest_errors(pack, 32)) <= c.at_most * largest(largest_errors(pack, 0.0)) + 1e-15);
   }
 }
 
