@@ -18,6 +18,9 @@ namespace {
 // seen.
 constexpr double largest_rms = 1.5 / 255;
 
+// Sides of turned tiles whose few texels still tell a blur from an edit.
+constexpr int smallest_turned = 8;
+
 // Levels whose texels are plain boxes of the finer level's. Normals are renormalised, roughness takes up what
 // they lose, and alpha may be scaled to keep its coverage: those are the mip stage's own affair.
 bool plain_boxes(const PackedMap& map) {
@@ -118,7 +121,7 @@ std::vector<Issue> check_turned_map(const Pack& pack, const PackedMap& map) {
   for (int level = 1; level < levels; ++level) {
     std::vector<Image> coarse = tiles_of_level(level);
     for (std::size_t id = 0; id < std::min(fine.size(), coarse.size()); ++id) {
-      if (coarse[id].width() < 3) break;
+      if (coarse[id].width() < smallest_turned) break;
       const Image boxes =
           inner(from_linear(halved(decoded(fine[id], encoding, map.depth), Weighting::plain), encoding));
       const double rms = rms_difference(boxes, inner(coarse[id]));

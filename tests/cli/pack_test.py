@@ -92,6 +92,41 @@ class Pack(CommandCase):
                 self.run_tilepack("render", "out", "-o", "view.png", "--rect", "0,0,64,64", "--scale", "2")
                 self.run_tilepack("inspect", "out", "--picture", "pack.png")
 
+    def test_says_what_turning_loses_and_whether_neighbours_match(self):
+        tiles = [(n, (w + j) % 2, (n + j) % 2, w) for n in (0, 1) for w in (0, 1) for j in (0, 1)]
+        names = self.draw(tiles)
+        turned = ("--layout", "rotated", "--scheme", "2,2", "--mapping", "index")
+        text = self.pack(*names, *turned).stdout
+        self.assertIn("2² + 2² by 45.00°", text)
+        self.assertIn("neighbours match across all borders: no gutter", text)
+        stored = self.read_json("out/pack.json")
+        self.assertEqual(stored["layout"]["matching"], "found")
+        psnr = stored["maps"][0]["round_trip_psnr"]
+        self.assertEqual(list(psnr), ["bilinear", "bicubic", "lanczos"])
+        self.assertLess(10, psnr["bilinear"])
+        self.assertLess(psnr["bilinear"], psnr["lanczos"])
+        self.assertIn(f"lanczos {psnr['lanczos']:.2f} dB", text)
+        report = json.loads(self.pack(*names, *turned, "--report-format", "json").stdout)
+        self.assertEqual(report["maps"][0]["round_trip_psnr"], psnr)
+        self.assertEqual(report["rotated"]["matching"], "found")
+        seen = json.loads(self.run_tilepack("inspect", "out", "--format", "json").stdout)
+        self.assertEqual(seen["maps"][0]["round_trip_psnr"], psnr)
+        self.assertEqual(seen["layout"]["rotated"]["matching"], "found")
+
+        # Side by side the same tiles are copied, and nothing is lost.
+        text = self.pack(*names, "--layout", "rotated", "--mapping", "index").stdout
+        self.assertIn("lanczos exact", text)
+        self.assertIsNone(self.read_json("out/pack.json")["maps"][0]["round_trip_psnr"]["lanczos"])
+
+    def test_says_where_no_arrangement_matches(self):
+        names = self.draw([(0, 0, 0, 0), (1, 1, 1, 1)])
+        text = self.pack(*names, "--layout", "rotated", "--scheme", "1,1", "--mapping", "index").stdout
+        self.assertIn("no arrangement has neighbours that all match: gutter 2", text)
+        self.assertEqual(self.read_json("out/pack.json")["layout"]["matching"], "none")
+        self.run_tilepack("validate", "out")
+        self.assertIn("gutter 5", self.pack(*names, "--layout", "rotated", "--scheme", "1,1", "--mapping", "index",
+                                            "--gutter", 5).stdout)
+
     def test_the_index_map_is_there_as_json(self):
         tiles = [(n, (w + j) % 2, (n + j) % 2, w) for n in (0, 1) for w in (0, 1) for j in (0, 1)]
         self.pack(*self.draw(tiles), "--layout", "array", "--mapping", "index")
@@ -165,7 +200,7 @@ class Pack(CommandCase):
         tiles = self.complete()[:7]
         names = self.draw(tiles)
         self.refused("pack", *names, "-o", "out", "--colors", "colors.json", "--layout", "rotated", "--mapping",
-                     "index", code=1, saying=["7 tiles", "5 and 8"])
+                     "index", code=1, saying=["7 tiles", "5 and 8", "array"])
 
 
 if __name__ == "__main__":

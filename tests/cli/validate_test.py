@@ -100,6 +100,82 @@ class Validate(CommandCase):
                 spoil()
                 self.assertIn(rule, self.rules(5))
 
+    def corrupted(self, *options):
+        """A pack of these bake options, and a function that spoils a field of it and expects a rule."""
+        shutil.rmtree(self.path("good"))
+        self.run_tilepack("bake", "sample.png", "-o", "good", "--tile-size", 16, "--virtual-size", 16, "--effort", 0,
+                          *options)
+        self.restore()
+        self.assertEqual(self.rules(0), set())
+
+        def expect(rule, path, change):
+            with self.subTest(path=path, change=change):
+                self.restore()
+                document = self.read_json("pack/pack.json")
+                place = document
+                *parents, last = path
+                for step in parents:
+                    place = place[step]
+                if change is None:
+                    del place[last]
+                else:
+                    place[last] = change(place) if callable(change) else change
+                self.write_json("pack/pack.json", document)
+                self.assertIn(rule, self.rules(5))
+
+        return expect
+
+    def test_each_corruption_of_a_turned_pack_is_caught(self):
+        expect = self.corrupted("--set", "sequential", "--scheme", "2,2")
+        cells = ["layout", "cells"]
+        expect("TP106", [*cells, 3, "origin"], [0.3, 0.3])  # between the places of the scheme
+        expect("TP105", [*cells, 3, "origin"], [1.5, 0.5])
+        expect("TP105", [*cells, 3, "origin"], [0.5])
+        expect("TP305", [*cells, 3, "origin"], lambda _: self.read_json("pack/pack.json")["layout"]["cells"][4]["origin"])
+        expect("TP106", [*cells, 3, "angle"], 44.9)
+        expect("TP105", [*cells, 3, "angle"], 90)
+        expect("TP102", [*cells, 3, "angle"], None)
+        expect("TP106", [*cells, 3, "tile"], 4)  # a tile twice
+        expect("TP106", [*cells, 3], None)  # a tile missing
+        expect("TP106", ["layout", "gutter"], 3)
+        expect("TP105", ["layout", "gutter"], -1)
+        expect("TP106", ["layout", "k"], 1)
+        expect("TP106", ["layout", "squares"], 2)
+        expect("TP106", ["layout", "size"], [92, 92])
+        expect("TP105", ["layout", "matching"], "perhaps")
+        expect("TP102", ["layout", "matching"], None)
+        expect("TP106", ["maps", 0, "round_trip_psnr"], None)
+        expect("TP102", ["maps", 0, "round_trip_psnr", "lanczos"], None)
+        expect("TP104", ["maps", 0, "round_trip_psnr", "lanczos"], "30 dB")
+        expect("TP106", ["tile_size"], [16, 8])
+        expect("TP203", ["maps", 0, "levels", 0, "file"], "color_1.png")
+
+        def swap(cells):
+            cells[1]["origin"], cells[2]["origin"] = cells[2]["origin"], cells[1]["origin"]
+            return cells[1]
+
+        expect("TP308", [*cells, 1], swap)
+
+    def test_each_corruption_of_a_layered_pack_is_caught(self):
+        expect = self.corrupted("--layout", "array", "--border", 4)
+        cells = ["layout", "cells"]
+        expect("TP305", [*cells, 3, "layer"], 4)
+        expect("TP105", [*cells, 3, "layer"], -1)
+        expect("TP106", [*cells, 3, "layer"], 16)
+        expect("TP106", [*cells, 3, "tile"], 4)
+        expect("TP106", [*cells, 3], None)
+        expect("TP106", ["layout", "layers"], 15)
+        expect("TP106", ["layout", "border"], 2)
+        expect("TP106", ["layout", "border"], 3)
+        expect("TP105", ["layout", "border"], -1)
+        expect("TP106", ["mips", "tile_levels"], 4)
+        self.restore()
+        self.invert_texel("color_0.png", 10, 25)  # above the tile of layer 1
+        self.assertIn("TP408", self.rules(5))
+        self.restore()
+        self.invert_texel("color_1.png", 0, 13)
+        self.assertIn("TP408", self.rules(5))
+
     def test_stray_files_are_a_note(self):
         self.write("pack/thumbs.db", "")
         self.assertEqual(self.rules(0), {"TP208"})
