@@ -189,9 +189,10 @@ Action declare_render(CLI::App& app) {
   app.add_option("--scale", a->scale,
                  "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")
       ->type_name("S");
-  app.add_option("--corner-width", a->corner_width,
-                 "how far round tile corners a corner pack is blended in, in texels of the level, 0 (not at all) "
-                 "to 4096, cut to what the pack allows (default 4)")
+  app.add_option(
+         "--corner-width", a->corner_width,
+         "how far round tile corners a corner pack is blended in, in texels of the level, 0 (not at all) "
+         "to 4096, cut to what the pack allows (default 4)")
       ->check(CLI::Range(0.0, 4096.0))
       ->type_name("W");
   app.add_option("--encoding", a->encoding,

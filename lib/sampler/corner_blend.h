@@ -6,9 +6,9 @@
 
 namespace tilepack {
 
-/// How far from a corner, in texels of the level looked up, the corner pack counts unless told otherwise: what
-/// mending a corner takes, since a filter that crosses a border reads a texel in the very corner of a tile up
-/// to 1.58 texels away.
+/// How far from a corner, in texels of the level looked up, the corner pack counts unless told otherwise:
+/// what mending a corner takes, since a filter that crosses a border reads a texel in the very corner of a
+/// tile up to 1.58 texels away.
 inline constexpr double default_corner_width = 4.0;
 
 /// The share of the corner pack at a point of a tile (fractions of its sides, whose texels are `tile`): 1 up

@@ -71,7 +71,8 @@ public:
     if (lookup == Lookup::plain) plain.sample(x, y, level, Filter::bilinear, value);
     if (lookup == Lookup::blended) blended.sample(x, y, level, Filter::bilinear, value);
     if (lookup == Lookup::corners_alone) {
-      const auto taps = corners.taps(level, corners.place(x.tile, y.tile, x.fraction, y.fraction), x.fraction,
+      const auto taps =
+          corners.pack_texels().taps(level, corners.place(x.tile, y.tile, x.fraction, y.fraction), x.fraction,
                                      y.fraction, Filter::bilinear);
       for (int i = 0; i < taps.count; ++i)
         for (std::size_t c = 0; c < 3; ++c)
