@@ -65,7 +65,7 @@ std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::op
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     const MaterialFile& f = files[i];
     ImageFile read = read_image(f.file, f.role == Role::color ? asked : std::optional(Encoding::linear));
-    maps[i] = {f.name, f.role, read.encoding, read.depth, std::move(read.image)};
+    maps[i] = {f.name, f.role, read.encoding, read.depth, std::move(read.image), f.file};
   });
   return maps;
 }

@@ -9,10 +9,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace tilepack {
 namespace {
+
+// Sides that synthesize() takes.
+constexpr int least_tile_side = 4;
+constexpr int most_tile_side = 4096;
 
 TileColors wanted_tiles(const BakeOptions& o) {
   const ColorCounts& k = o.synth.colors;
@@ -36,6 +41,25 @@ void check_choice(const BakeOptions& o) {
     throw Error(ErrorKind::usage, "--layout", "'tile-index' needs the complete set; use rotated or array");
 }
 
+std::string label_of(const SampleMap& map) {
+  return map.file.empty() ? map.name : map.file;
+}
+
+void check_fit(const SampleMap& sample, Size tile) {
+  const Size size = sample.image.size();
+  if (size.width >= tile.width && size.height >= tile.height) return;
+  if (std::max(tile.width, tile.height) > most_tile_side) return; // a fault of the option, and told so later
+  const int side = std::min({size.width, size.height, most_tile_side});
+  const std::string way_out =
+      side >= least_tile_side
+          ? fmt::format("take tiles of {0} at most (--tile-size {0}) or a larger sample", side)
+          : fmt::format("no tile fits, since it has {} texels a side at least: take a larger sample",
+                        least_tile_side);
+  throw Error(ErrorKind::invalid_content, label_of(sample),
+              fmt::format("has {} x {} texels, too few for a tile of {} x {}; {}", size.width, size.height,
+                          tile.width, tile.height, way_out));
+}
+
 void check_samples(std::span<const SampleMap> samples) {
   if (samples.empty()) throw Error(ErrorKind::usage, "", "there is no sample; name an image");
   std::set<std::string> names;
@@ -46,9 +70,9 @@ void check_samples(std::span<const SampleMap> samples) {
     if (!names.insert(map.name).second)
       throw Error(ErrorKind::usage, map.name, "is the name of two maps; give each its own");
     if (map.image.size() != samples[0].image.size())
-      throw Error(ErrorKind::invalid_content, map.name,
+      throw Error(ErrorKind::invalid_content, label_of(map),
                   fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
-                              map.image.width(), map.image.height(), samples[0].name,
+                              map.image.width(), map.image.height(), label_of(samples[0]),
                               samples[0].image.width(), samples[0].image.height()));
   }
 }
@@ -64,6 +88,7 @@ Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const 
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);
   check_packing(options, wanted, synth.tile_size); // before the long stage
+  check_fit(samples[0], synth.tile_size);
   TileSet set = assembled(synthesize(samples, synth, progress), samples);
   if (set.tiles != wanted) set = subset(set, wanted);
   Pack pack = packed(std::move(set), options, options.synth.seed, progress);

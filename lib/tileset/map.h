@@ -27,6 +27,7 @@ struct SampleMap {
   Encoding encoding = Encoding::srgb; ///< of `image`
   Depth depth = Depth::u8;            ///< as read; the depth of the pack unless told otherwise
   Image image;                        ///< values as in the file (see Image)
+  std::string file = {};              ///< where it came from, for messages; may be empty
 };
 
 /// One map of a tile set: the tiles' images in the order of their ids, all of one size.

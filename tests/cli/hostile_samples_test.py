@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import unittest
 
 from command import CommandCase, float_exr
@@ -30,10 +31,19 @@ class Samples(CommandCase):
         self.bake_refused(self.write("cut.exr", exr[:len(exr) // 2]), CANNOT_READ, "cut.exr")
 
     def test_samples_too_small(self):
-        self.bake_refused(self.noise_png("dot.png", 1, 1), INVALID, "1 x 1")
-        message = self.bake_refused(self.noise_png("small.png", 12, 64), INVALID, "12 x 64")
-        # The message says what would fit, and it does.
-        self.assertRegex(message, r"largest|fits|would fit|at most")
+        self.bake_refused(self.noise_png("dot.png", 1, 1), INVALID, ["dot.png", "1 x 1", "no tile fits"])
+        message = self.bake_refused(self.noise_png("small.png", 12, 64), INVALID, ["small.png", "12 x 64"])
+        # The message says what would fit, and it does; one more does not.
+        fits = int(re.search(r"--tile-size (\d+)", message).group(1))
+        self.assertEqual(fits, 12)
+        self.refused("bake", "small.png", "-o", "out", "--tile-size", fits + 1, code=INVALID, saying="small.png")
+        self.run_tilepack("bake", "small.png", "-o", "out", "--effort", 0, "--tile-size", fits)
+
+    def test_maps_of_unequal_sizes(self):
+        self.noise_png("color.png", 32, 32)
+        self.noise_png("rough.png", 32, 31)
+        self.refused("bake", "color.png", "--map", "roughness=rough.png", "-o", "out", *SMALL, code=INVALID,
+                     saying=["color.png", "rough.png", "32 x 31", "32 x 32"])
 
     def test_values_that_are_no_numbers(self):
         for value in (math.nan, math.inf, -math.inf):
