@@ -42,38 +42,48 @@ HWY_INLINE VI codes_of(VF values, VI& strays) {
   return code;
 }
 
-int find_codes(const float* HWY_RESTRICT values, int* HWY_RESTRICT codes, std::size_t count) {
+void find_codes(const float* HWY_RESTRICT values, std::uint8_t* HWY_RESTRICT codes, std::size_t count,
+                VI& strays) {
   const F f;
-  const I i;
+  const hn::Rebind<std::uint8_t, I> bytes;
   const std::size_t lanes = hn::Lanes(f);
-  VI strays = hn::Zero(i);
   std::size_t at = 0;
   for (; at + lanes <= count; at += lanes)
-    hn::StoreU(codes_of(hn::LoadU(f, values + at), strays), i, codes + at);
-  if (at < count) {
-    HWY_ALIGN float rest[hn::MaxLanes(f)] = {}; // 0 is a code
-    HWY_ALIGN int rest_codes[hn::MaxLanes(f)];
-    for (std::size_t k = 0; at + k < count; ++k) rest[k] = values[at + k];
-    hn::Store(codes_of(hn::Load(f, rest), strays), i, rest_codes);
-    for (std::size_t k = 0; at + k < count; ++k) codes[at + k] = rest_codes[k];
-  }
-  return hn::AllTrue(i, hn::Eq(strays, hn::Zero(i))) ? 0 : 1;
+    hn::StoreU(hn::DemoteTo(bytes, codes_of(hn::LoadU(f, values + at), strays)), bytes, codes + at);
+  if (at == count) return;
+  HWY_ALIGN float rest[hn::MaxLanes(f)] = {}; // 0 is a code
+  HWY_ALIGN std::uint8_t rest_codes[hn::MaxLanes(f)];
+  for (std::size_t k = 0; at + k < count; ++k) rest[k] = values[at + k];
+  hn::StoreU(hn::DemoteTo(bytes, codes_of(hn::Load(f, rest), strays)), bytes, rest_codes);
+  for (std::size_t k = 0; at + k < count; ++k) codes[at + k] = rest_codes[k];
 }
 
 template <std::size_t channels>
-HWY_INLINE void halve_rows(const int* HWY_RESTRICT n, const int* HWY_RESTRICT s,
-                           const float* HWY_RESTRICT linear, float* HWY_RESTRICT to, std::size_t width) {
+HWY_INLINE void halve_codes(const std::uint8_t* HWY_RESTRICT n, const std::uint8_t* HWY_RESTRICT s,
+                            const float* HWY_RESTRICT linear, float* HWY_RESTRICT to, std::size_t width) {
   for (std::size_t x = 0; x < width; ++x, n += 2 * channels, s += 2 * channels, to += channels)
     for (std::size_t c = 0; c < channels; ++c)
       to[c] = ((linear[n[c]] + linear[n[c + channels]]) + (linear[s[c]] + linear[s[c + channels]])) * 0.25f;
 }
 
-void halve_codes(const int* north, const int* south, const float* linear, float* to, std::size_t width,
-                 std::size_t channels) {
-  if (channels == 1)
-    halve_rows<1>(north, south, linear, to, width);
-  else
-    halve_rows<3>(north, south, linear, to, width);
+// So many texels at a time that their codes stay in the nearest cache.
+constexpr std::size_t run = 256;
+
+int halve(const float* north, const float* south, const float* linear, float* to, std::size_t width,
+          std::size_t channels) {
+  const I i;
+  VI strays = hn::Zero(i);
+  std::uint8_t codes[2][2 * 3 * run];
+  for (std::size_t x = 0; x < width; x += run) {
+    const std::size_t texels = width - x < run ? width - x : run;
+    find_codes(north + 2 * channels * x, codes[0], 2 * channels * texels, strays);
+    find_codes(south + 2 * channels * x, codes[1], 2 * channels * texels, strays);
+    if (channels == 1)
+      halve_codes<1>(codes[0], codes[1], linear, to + x, texels);
+    else
+      halve_codes<3>(codes[0], codes[1], linear, to + 3 * x, texels);
+  }
+  return hn::AllTrue(i, hn::Eq(strays, hn::Zero(i))) ? 0 : 1;
 }
 
 int encode(const float* HWY_RESTRICT values, float* HWY_RESTRICT codes, std::size_t count,
@@ -118,16 +128,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tilepack {
 
-HWY_EXPORT(find_codes);
-HWY_EXPORT(halve_codes);
+HWY_EXPORT(halve);
 HWY_EXPORT(encode);
 
 // The tables that HWY_EXPORT makes, entry by entry: which one is taken is no state of the program.
 std::vector<SrgbKernel> srgb_kernels() {
   std::vector<SrgbKernel> kernels;
 #if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
-  kernels.push_back({hwy::TargetName(HWY_TARGETS), &HWY_STATIC_DISPATCH(find_codes),
-                     &HWY_STATIC_DISPATCH(halve_codes), &HWY_STATIC_DISPATCH(encode)});
+  kernels.push_back(
+      {hwy::TargetName(HWY_TARGETS), &HWY_STATIC_DISPATCH(halve), &HWY_STATIC_DISPATCH(encode)});
 #else
   // Highway numbers its targets best first.
   for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) {
@@ -135,8 +144,8 @@ std::vector<SrgbKernel> srgb_kernels() {
     hwy::ChosenTarget chosen;
     chosen.Update(target);
     const std::size_t index = chosen.GetIndex();
-    kernels.push_back({hwy::TargetName(target), HWY_DISPATCH_TABLE(find_codes)[index],
-                       HWY_DISPATCH_TABLE(halve_codes)[index], HWY_DISPATCH_TABLE(encode)[index]});
+    kernels.push_back(
+        {hwy::TargetName(target), HWY_DISPATCH_TABLE(halve)[index], HWY_DISPATCH_TABLE(encode)[index]});
   }
 #endif
   return kernels;

@@ -21,13 +21,11 @@ struct EncodeCurve {
 struct SrgbKernel {
   const char* target = "";
 
-  /// Codes k of values k / 255. Returns other than 0 if some value is no such quotient.
-  int (*find_codes)(const float* values, int* codes, std::size_t count) = nullptr;
-
-  /// Means of 2 × 2 boxes, `width` texels of `channels` values (1 or 3), of two rows of codes by `linear`, a
-  /// table of 256 values.
-  void (*halve_codes)(const int* north, const int* south, const float* linear, float* to, std::size_t width,
-                      std::size_t channels) = nullptr;
+  /// Means of 2 × 2 boxes, `width` texels of `channels` values (1 or 3), of two rows of 8-bit codes k / 255
+  /// decoded by `linear`, a table of 256 values. Returns other than 0, and nothing of use, if some value is
+  /// no such code.
+  int (*halve)(const float* north, const float* south, const float* linear, float* to, std::size_t width,
+               std::size_t channels) = nullptr;
 
   /// Codes of up to `block` values by the curve's pieces. Returns other than 0 if some value lies off them;
   /// its code then means nothing.

