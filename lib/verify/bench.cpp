@@ -129,30 +129,51 @@ std::vector<CoordinateError> coordinate_errors(const Pack& pack, int map, std::u
   return errors;
 }
 
+std::vector<MipSummary> mip_summaries(const Bench& bench) {
+  std::vector<MipSummary> summaries;
+  for (const ReferenceErrors& errors : bench.mips) {
+    // Sums of squares, and how many.
+    std::array<double, 3> squares{};
+    std::array<double, 3> counts{};
+    const auto add = [&](std::size_t figure, double value) {
+      squares[figure] += value * value;
+      counts[figure] += 1;
+    };
+    for (const LevelError& level : errors.levels) {
+      if (level.level == 0) continue;
+      for (const ZoneError& zone : level.zones)
+        if (zone.lookups > 0) add(zone.zone == Zone::interior ? 0 : 1, zone.rms);
+      add(2, level.jump);
+    }
+    const auto rms = [&](std::size_t figure) {
+      return counts[figure] > 0 ? std::sqrt(squares[figure] / counts[figure]) : 0.0;
+    };
+    summaries.push_back({errors.mips, rms(0), rms(1), rms(2),
+                         std::sqrt(rms(0) * rms(0) + rms(1) * rms(1) + rms(2) * rms(2))});
+  }
+  return summaries;
+}
+
 std::vector<std::string> advice(const Bench& bench) {
   std::vector<std::string> lines;
-  // Mips: least error at edges and corners together, and least jump, over the levels past the first.
-  const auto border_error = [](const ReferenceErrors& errors) {
-    double sum = 0;
-    for (const LevelError& level : errors.levels)
-      for (const ZoneError& zone : level.zones)
-        if (zone.zone != Zone::interior && level.level > 0) sum += zone.rms * zone.rms;
-    return sum;
+  const std::vector<MipSummary> mips = mip_summaries(bench);
+  const auto least_by = [&](double MipSummary::*figure) -> const MipSummary& {
+    return *std::min_element(mips.begin() + 1, mips.end(),
+                             [&](const auto& a, const auto& b) { return a.*figure < b.*figure; });
   };
-  const auto jumps = [](const ReferenceErrors& errors) {
-    double sum = 0;
-    for (const LevelError& level : errors.levels) sum += level.jump * level.jump;
-    return sum;
-  };
-  const auto least_by = [&](const auto& figure) {
-    return std::min_element(bench.mips.begin() + 1, bench.mips.end(),
-                            [&](const auto& a, const auto& b) { return figure(a) < figure(b); })
-        ->mips;
-  };
-  if (bench.mips.size() > 1)
+  if (mips.size() > 1) {
+    const MipSummary& best = least_by(&MipSummary::together);
     lines.push_back(
-        fmt::format("Mips: '{}' is nearest to the true mips at borders, '{}' jumps least across them.",
-                    least_by(border_error), least_by(jumps)));
+        fmt::format("Mips: choose '{}': error inside tiles {:.2f}, at borders {:.2f}, jump across them "
+                    "{:.2f}, the least together.",
+                    best.mips, best.interior, best.border, best.jump));
+    const MipSummary& nearest = least_by(&MipSummary::border);
+    const MipSummary& smoothest = least_by(&MipSummary::jump);
+    lines.push_back(
+        fmt::format("Mips otherwise: '{}' is nearest to the true mips at borders ({:.2f}), '{}' jumps "
+                    "least across them ({:.2f}).",
+                    nearest.mips, nearest.border, smoothest.mips, smoothest.jump));
+  }
   // Lookups: the fastest whose error is within a tenth of an 8-bit unit of the least of its filter.
   for (const char* filter : {"bilinear", "trilinear"}) {
     const LookupCost* chosen = nullptr;

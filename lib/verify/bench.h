@@ -48,6 +48,17 @@ std::vector<ReferenceErrors> mip_mode_errors(const Pack& pack, int map, int look
                                              const Progress& progress = {});
 std::vector<CornerPicture> corner_pictures(const Pack& pack, int map, int level);
 
+/// A mip mode in one line: RMS over levels 1 and up, 8-bit units of the encoded value.
+struct MipSummary {
+  std::string mips;
+  double interior = 0; ///< error inside tiles
+  double border = 0;   ///< error at edges and corners
+  double jump = 0;     ///< across borders
+  /// What to go by where nothing else decides: the root of the sum of the three squares.
+  double together = 0;
+};
+std::vector<MipSummary> mip_summaries(const Bench& bench);
+
 /// What to choose, one sentence a line: from the figures, by fixed rules.
 std::vector<std::string> advice(const Bench& bench);
 

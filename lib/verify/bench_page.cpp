@@ -18,6 +18,7 @@ svg { background: #fafafa; border: 1px solid #ddd; width: 100% }
 .title { font: bold 14px sans-serif } .tick { font: 11px sans-serif; fill: #444 } .grid { stroke: #e2e2e2 }
 table { border-collapse: collapse; font-size: 13px } td, th { padding: 2px 10px; text-align: right; border-bottom: 1px solid #e4e4e4 }
 td:first-child, th:first-child, .words td:nth-child(2), .words th:nth-child(2) { text-align: left } .good { color: #00704f } .bad { color: #b3261e; font-weight: bold }
+.best { color: #00704f; font-weight: bold }
 .advice { background: #eef6fb; border-left: 4px solid #0072b2; padding: .6em 1em }
 figure { margin: 0; flex: 0 0 200px } figcaption { font-size: 13px; text-align: center }
 </style></head><body>
@@ -25,7 +26,7 @@ figure { margin: 0; flex: 0 0 200px } figcaption { font-size: 13px; text-align: 
 
 std::string cost_plot(const Bench& bench) {
   Plot plot{"Speed against error", "ns a sample (log)", "RMS from the truth, 8-bit units", true, false, {}};
-  for (const char* filter : {"bilinear", "trilinear"})
+  for (const char* filter : {"bilinear", "trilinear", "elliptical"})
     for (const char* sampler : {"fast", "reference"}) {
       PlotSeries series{fmt::format("{} {}", sampler, filter), {}, {}, false};
       for (const LookupCost& c : bench.lookups.costs) {
@@ -34,7 +35,7 @@ std::string cost_plot(const Bench& bench) {
         series.labels.push_back(fmt::format("{}, {} weights: {:.2f} ns, {:.3f}", c.mapping, c.weights,
                                             c.nanoseconds, c.rms_truth));
       }
-      plot.series.push_back(std::move(series));
+      if (!series.points.empty()) plot.series.push_back(std::move(series));
     }
   return svg(plot);
 }
@@ -127,14 +128,34 @@ std::string ratio_table(const Bench& bench) {
 }
 
 std::string cost_table(const Bench& bench) {
-  std::string out = "<table><tr><th>sampler</th><th>mapping</th><th>filter</th><th>weights</th><th>ns a "
-                    "sample</th><th>M/s</th>"
-                    "<th>off the reference, of 255</th><th>RMS from the truth</th></tr>\n";
+  std::string out =
+      "<table><tr><th>sampler</th><th>mapping</th><th>corners</th><th>filter</th><th>weights</th><th>ns a "
+      "sample</th><th>M/s</th>"
+      "<th>off the reference, of 255</th><th>RMS from the truth</th></tr>\n";
   for (const LookupCost& c : bench.lookups.costs)
-    out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.1f}</"
-                       "td><td>{:.5f}</td><td>{:.3f}</td></tr>\n",
-                       c.sampler, c.mapping, c.filter, c.weights, c.nanoseconds, 1000 / c.nanoseconds,
-                       c.off_reference, c.rms_truth);
+    out +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.1f}</"
+                    "td><td>{:.5f}</td><td>{:.3f}</td></tr>\n",
+                    c.sampler, c.mapping, c.corners, c.filter, c.weights, c.nanoseconds, 1000 / c.nanoseconds,
+                    c.off_reference, c.rms_truth);
+  return out + "</table>\n";
+}
+
+// All modes; the least of each column stands out.
+std::string mip_table(const Bench& bench) {
+  const std::vector<MipSummary> mips = mip_summaries(bench);
+  std::string out = "<table><tr><th>mips</th><th>error inside tiles</th><th>at borders</th><th>jump across "
+                    "borders</th><th>together</th></tr>\n";
+  for (const MipSummary& m : mips) {
+    out += fmt::format("<tr><td>{}</td>", escaped(m.mips));
+    for (const auto figure :
+         {&MipSummary::interior, &MipSummary::border, &MipSummary::jump, &MipSummary::together}) {
+      const bool least = std::all_of(mips.begin(), mips.end(),
+                                     [&](const MipSummary& other) { return m.*figure <= other.*figure; });
+      out += fmt::format("<td class=\"{}\">{:.2f}</td>", least ? "best" : "", m.*figure);
+    }
+    out += "</tr>\n";
+  }
   return out + "</table>\n";
 }
 
@@ -161,8 +182,10 @@ std::string bench_page(const Bench& bench) {
   page += "</ul></div>\n<h2>Ratios, medians of rounds run in turn</h2>\n" + ratio_table(bench);
   page += "<h2>Lookups</h2>\n<div class=\"row\">" + cost_plot(bench) + size_plot(bench) + "</div>\n" +
           cost_table(bench);
-  page += "<h2>Mip levels: bilinear lookups through the pack against the virtual texture's true "
-          "mips</h2>\n<div class=\"row\">";
+  page += "<h2>Mip levels: bilinear lookups through the pack against the virtual texture's true mips</h2>\n";
+  if (bench.mips.size() > 1)
+    page += "<p>RMS over levels 1 and up, 8-bit units of the encoded value.</p>\n" + mip_table(bench);
+  page += "<div class=\"row\">";
   for (const Zone zone : {Zone::interior, Zone::edge, Zone::corner}) page += mip_plot(bench, zone);
   page += jump_plot(bench) + "</div>\n";
   if (!bench.corners.empty()) {

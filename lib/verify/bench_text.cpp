@@ -18,13 +18,20 @@ std::string bench_text(const Bench& bench) {
   std::string text =
       fmt::format("{}, map {}: {} on this machine\n\nWhat to choose\n", bench.pack, bench.map, bench.target);
   for (const std::string& line : advice(bench)) text += "  " + line + '\n';
+  if (bench.mips.size() > 1) {
+    text += "\nMips in short: RMS over levels 1 and up, 8-bit units\n"
+            "  mips             interior   border     jump  together\n";
+    for (const MipSummary& m : mip_summaries(bench))
+      text += fmt::format("  {:<15} {:>9.2f} {:>8.2f} {:>8.2f} {:>9.2f}\n", m.mips, m.interior, m.border,
+                          m.jump, m.together);
+  }
   text += "\nSpeed against error (one thread; off: largest difference from the reference, of 255 linear;\n"
           "rms: against the ground truth, 8-bit units)\n"
-          "  sampler    mapping      filter     weights  ns/sample   M/s       off      rms\n";
+          "  sampler    mapping      corners      filter     weights  ns/sample   M/s       off      rms\n";
   for (const LookupCost& c : bench.lookups.costs)
-    text += fmt::format("  {:<10} {:<12} {:<10} {:<7} {:>10.2f} {:>6.1f} {:>9.5f} {:>8.3f}\n", c.sampler,
-                        c.mapping, c.filter, c.weights, c.nanoseconds, 1000 / c.nanoseconds, c.off_reference,
-                        c.rms_truth);
+    text += fmt::format("  {:<10} {:<12} {:<12} {:<10} {:<7} {:>10.2f} {:>6.1f} {:>9.5f} {:>8.3f}\n",
+                        c.sampler, c.mapping, c.corners, c.filter, c.weights, c.nanoseconds,
+                        1000 / c.nanoseconds, c.off_reference, c.rms_truth);
   text += "\nRatios (medians of rounds run in turn)\n";
   for (const BenchRatio& r : all_ratios(bench))
     text += fmt::format(
@@ -50,6 +57,7 @@ std::string bench_json(const Bench& bench) {
     costs.push_back({{"sampler", c.sampler},
                      {"target", c.target},
                      {"mapping", c.mapping},
+                     {"corners", c.corners},
                      {"filter", c.filter},
                      {"weights", c.weights},
                      {"nanoseconds", c.nanoseconds},
@@ -71,6 +79,13 @@ std::string bench_json(const Bench& bench) {
                            {"float", e.as_float},
                            {"double", e.as_double},
                            {"tile_and_float", e.as_tile_and_float}});
+  Json summaries = Json::array();
+  for (const MipSummary& m : mip_summaries(bench))
+    summaries.push_back({{"mips", m.mips},
+                         {"interior", m.interior},
+                         {"border", m.border},
+                         {"jump", m.jump},
+                         {"together", m.together}});
   Json hard = Json::array();
   for (const HardLookup& c : bench.hard_lookups)
     hard.push_back({{"input", c.input},
@@ -89,6 +104,7 @@ std::string bench_json(const Bench& bench) {
                      {"sizes", std::move(sizes)},
                      {"coordinates", std::move(coordinates)},
                      {"hard_lookups", std::move(hard)},
+                     {"mips_in_short", std::move(summaries)},
                      {"mips", Json::parse(reference_errors_json(bench.mips))}};
   return json.dump(2) + '\n';
 }
@@ -99,7 +115,8 @@ std::string bench_csv(const Bench& bench) {
     text += fmt::format("{},\"{}\",{:.6g}\n", section, name, value);
   };
   for (const LookupCost& c : bench.lookups.costs) {
-    const std::string name = fmt::format("{} {} {} {}", c.sampler, c.mapping, c.filter, c.weights);
+    const std::string name =
+        fmt::format("{} {} {} {} {}", c.sampler, c.mapping, c.corners, c.filter, c.weights);
     line("nanoseconds", name, c.nanoseconds);
     line("off_reference", name, c.off_reference);
     line("rms_truth", name, c.rms_truth);

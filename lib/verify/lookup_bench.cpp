@@ -105,6 +105,10 @@ void check_answer(const Pack& pack, int map, const FastSampler& fast, const Look
                     cost.off_reference, allowed));
 }
 
+std::string corners_of(const Pack& pack) {
+  return pack.corner_pack ? "corner pack" : "tiles alone";
+}
+
 void bench_configurations(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
                           LookupBench& bench) {
   const int channels = pack.maps[static_cast<std::size_t>(map)].channels;
@@ -112,15 +116,17 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
   const Buffers out(channels, LookupFrame::bucket);
   std::vector<FastSampler> samplers;
   std::vector<std::function<void()>> runs;
-  for (const MappingKind kind : {MappingKind::index, MappingKind::permutation, MappingKind::mix}) {
+  const auto bench_kind = [&](MappingKind kind, bool corner_pack) {
     Pack with = pack;
     with.mapping = mapping_of_kind(pack, kind, {256, 256}, options.seed);
+    if (!corner_pack) with.corner_pack.reset();
     samplers.emplace_back(with, map);
     for (const Filter filter : {Filter::bilinear, Filter::trilinear})
       for (const Weights weights : {Weights::exact, Weights::fixed_8_8}) {
         LookupCost cost{"fast",
                         best,
                         std::string(name_of(kind)),
+                        corners_of(with),
                         std::string(name_of(filter)),
                         weights == Weights::exact ? "float" : "8.8",
                         0,
@@ -132,6 +138,10 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
         runs.push_back(
             [&, number, filter, weights] { look_up_frame(samplers[number], frame, filter, weights, out); });
       }
+  };
+  for (const MappingKind kind : {MappingKind::index, MappingKind::permutation, MappingKind::mix}) {
+    bench_kind(kind, false);
+    if (pack.corner_pack) bench_kind(kind, true);
   }
   const auto times = in_turn(runs, options.rounds, samples_a_frame);
   for (std::size_t i = 0; i < times.size(); ++i) bench.costs[i].nanoseconds = median(times[i]);
@@ -143,9 +153,16 @@ void bench_reference(const Pack& pack, int map, const BenchOptions& options, con
   const auto channels = static_cast<std::size_t>(packed.channels);
   const ReferenceSampler reference(pack, map);
   const GroundTruth truth = GroundTruth::of_level_0(pack, map);
-  for (const Filter filter : {Filter::bilinear, Filter::trilinear}) {
+  // Of the frame's pixels, all alike: a square turned by the frame's angle.
+  const double step = frame.texels_a_pixel;
+  const Footprint pixel{step * std::cos(frame.angle) / pack.tile_size.width,
+                        step * std::sin(frame.angle) / pack.tile_size.height,
+                        -step * std::sin(frame.angle) / pack.tile_size.width,
+                        step * std::cos(frame.angle) / pack.tile_size.height};
+  for (const std::string filter_name : {"bilinear", "trilinear", "elliptical"}) {
+    const std::optional<Filter> filter = filter_named(filter_name);
     LookupCost cost{
-        "reference", "", std::string(name_of(pack.mapping.kind)), std::string(name_of(filter)), "double", 0,
+        "reference", "", std::string(name_of(pack.mapping.kind)), corners_of(pack), filter_name, "double", 0,
         0,           0};
     std::array<double, 4> got{};
     std::array<double, 4> ideal{};
@@ -156,9 +173,15 @@ void bench_reference(const Pack& pack, int map, const BenchOptions& options, con
         const TileCoordinate x{frame.tile_x[i], static_cast<double>(frame.x[i])};
         const TileCoordinate y{frame.tile_y[i], static_cast<double>(frame.y[i])};
         const auto level = static_cast<double>(frame.level[i]);
-        reference.sample(x, y, level, filter, {got.data(), channels});
+        const auto look_up = [&](const auto& sampler, std::array<double, 4>& value) {
+          if (filter)
+            sampler.sample(x, y, level, *filter, {value.data(), channels});
+          else
+            sampler.sample(x, y, pixel, {value.data(), channels});
+        };
+        look_up(reference, got);
         if (!compare) continue;
-        truth.sample(x, y, level, filter, {ideal.data(), channels});
+        look_up(truth, ideal);
         for (std::size_t c = 0; c < channels; ++c) {
           const double off = 255 * (encoded(packed, got[c], c) - encoded(packed, ideal[c], c));
           squares += off * off;
@@ -318,9 +341,9 @@ void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupB
     bench.sizes[s].tiled = median(times[s]);
     if (bench.sizes[s].stored) bench.sizes[s].stored = median(times[stored_run[next_stored++]]);
   }
-  BenchRatio flatness{"speed at the slowest size against the fastest, 16 to 2^20 tiles a side", least / most,
-                      0.9};
-  bench.ratios.push_back(std::move(flatness));
+  bench.ratios.push_back({fmt::format("speed at the slowest size against the fastest, {} to {} tiles a side",
+                                      bench.sizes.front().tiles, bench.sizes.back().tiles),
+                          least / most, 0.9});
 }
 
 } // namespace

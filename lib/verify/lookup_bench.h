@@ -48,6 +48,7 @@ struct LookupCost {
   std::string sampler; ///< "fast" or "reference"
   std::string target;  ///< instruction set
   std::string mapping;
+  std::string corners; ///< how they are handled: "tiles alone", or "corner pack" where the pack has one
   std::string filter;
   std::string weights;      ///< "float", "8.8", "double"
   double nanoseconds = 0;   ///< a sample, one thread, median

@@ -5,10 +5,12 @@ import html.parser
 import io
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
 import unittest
+import xml.dom.minidom
 
 from render_test import SmallPack
 
@@ -56,7 +58,9 @@ class Bench(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         figures = json.loads(result.stdout)
         self.assertEqual(figures["map"], "color")
-        self.assertEqual(len(figures["lookups"]), 14)
+        self.assertEqual(len(figures["lookups"]), 15)
+        self.assertTrue(all(case["kept"] for case in figures["hard_lookups"]), figures["hard_lookups"])
+        self.assertEqual(len(figures["mips_in_short"]), 5)
         self.assertNotIn(self.folder, result.stdout)
         with open(page, encoding="utf-8") as file:
             text = file.read()
@@ -65,6 +69,10 @@ class Bench(unittest.TestCase):
         self.assertEqual(parser.open, [])
         self.assertEqual(parser.outside, [])
         self.assertGreaterEqual(parser.plots, 7)
+        for svg in re.findall("<svg.*?</svg>", text, re.DOTALL):
+            xml.dom.minidom.parseString(svg)
+        for case in figures["hard_lookups"]:
+            self.assertIn(html.escape(case["input"], quote=False), text)
         self.assertNotIn(self.folder, text)
         self.assertEqual(sorted(os.listdir(self.folder)), ["pack", "page.html"])
 
