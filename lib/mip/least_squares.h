@@ -40,6 +40,11 @@ namespace tilepack {
 /// shared_border), only that a + b' be the same for all pairs of rows (a, b') that meet in the pack, which
 /// leaves the difference a - b' to the texture. That is why this beats averaging.
 ///
+/// *What is left.* However the texels of a pack are chosen, ring or further in, a lookup in A gives a value
+/// that depends on A alone, so no mode comes below Var T_A: the spread, over all tiles that may lie beyond
+/// the border, of what the filter sees of them. Weight 0 comes near; to remove jumps costs more. Figures in
+/// the README.
+///
 /// The values found stay within the range that the level's box texels span, channel by channel. Weighted by
 /// alpha, it is the products of color and alpha that are fitted, and alpha itself.
 void fit_borders(const TileColors& colors, const PackNeighbours& neighbours, double jump_weight,
