@@ -1,5 +1,6 @@
 #include "tilepack/synth/frame_search.h"
 
+#include "tilepack/synth/byte_rows.h"
 #include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/strip_space.h"
 #include "tilepack/tileset/random.h"
@@ -131,8 +132,10 @@ using MisfitMap = std::vector<float>; // one a position; sums of exact integers,
 // their places in the tile. For vertical strips x and y are swapped, as in the transposed image.
 struct SidePart {
   struct Run {
-    int along, across;
-    std::vector<std::uint8_t> values;
+    int along = 0;
+    int across = 0;
+    std::size_t bytes = 0;
+    std::vector<std::uint8_t> values; // and slack
   };
   std::vector<Run> runs;
 };
@@ -162,11 +165,13 @@ SidePart side_part(const StripAt& strip, bool before) {
   for (int k = 0; k < space.reach; ++k) {
     const int across = before ? space.reach - 1 - k : space.reach + k;
     const int skip = horizontal ? k : k + 1; // the diagonal belongs to the horizontal strips
-    SidePart::Run run{skip, before ? extent - 1 - k : k, {}};
+    SidePart::Run run{skip, before ? extent - 1 - k : k, 0, {}};
     for (int along = skip; along < space.length - skip; ++along) {
       const std::uint8_t* shown = strip.shown(along, across);
       run.values.insert(run.values.end(), shown, shown + strip.image.channels);
     }
+    run.bytes = run.values.size();
+    run.values.resize(run.bytes + byte_row_slack);
     part.runs.push_back(std::move(run));
   }
   return part;
@@ -181,32 +186,35 @@ FeatureImage transposed(const FeatureImage& image) {
   return result;
 }
 
-// 16-bit products summed in pairs are one instruction where the compiler sees them.
-int run_difference(const std::uint8_t* a, const std::uint8_t* b, std::size_t count) {
-  int total = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto d = static_cast<std::int16_t>(a[i] - b[i]);
-    total += d * d;
-  }
-  return total;
+// What vector loads may read past the last texel.
+FeatureImage with_slack(FeatureImage image) {
+  image.values.resize(image.values.size() + byte_row_slack);
+  return image;
 }
 
 // `image` is transposed for vertical strips; `positions` are of the plain one.
 MisfitMap misfits(const FeatureImage& image, const Positions& positions, const SidePart& part, bool swapped,
                   int depth) {
+  std::vector<ByteRun> runs;
+  for (const auto& run : part.runs)
+    if (run.bytes > 0)
+      runs.push_back({run.values.data(), run.bytes, image.texel(run.along, run.across) - image.texel(0, 0)});
   MisfitMap map(positions.count());
-  std::size_t p = 0;
-  for (int j = 0; j < positions.rows; ++j)
-    for (int i = 0; i < positions.columns; ++i, ++p) {
-      const int along = (swapped ? j : i) * positions.stride;
-      const int across = (swapped ? i : j) * positions.stride;
-      std::int64_t total = 0;
-      for (const auto& run : part.runs)
-        if (!run.values.empty())
-          total += run_difference(image.texel(along + run.along, across + run.across), run.values.data(),
-                                  run.values.size());
-      map[p] = static_cast<float>(static_cast<double>(total) / depth);
+  // Along the edge, which is along the rows of the image.
+  const int lines = swapped ? positions.columns : positions.rows;
+  const int places = swapped ? positions.rows : positions.columns;
+  std::vector<std::int64_t> sums(static_cast<std::size_t>(places));
+  for (int line = 0; line < lines; ++line) {
+    squared_differences_along(image.texel(0, line * positions.stride),
+                              static_cast<std::ptrdiff_t>(positions.stride) * image.channels, runs, sums);
+    for (int place = 0; place < places; ++place) {
+      const int i = swapped ? line : place;
+      const int j = swapped ? place : line;
+      map[static_cast<std::size_t>(j) * static_cast<std::size_t>(positions.columns) +
+          static_cast<std::size_t>(i)] =
+          static_cast<float>(static_cast<double>(sums[static_cast<std::size_t>(place)]) / depth);
     }
+  }
   return map;
 }
 
@@ -440,11 +448,12 @@ FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleS
   const FrameShape small = halved(shape, levels - 1);
   const PatchSearch search(pyramid.back());
   report(progress, "frame search", 0.0);
-  const FeatureImage turned = transposed(pyramid.back());
+  const FeatureImage plain = with_slack(pyramid.back());
+  const FeatureImage turned = with_slack(transposed(pyramid.back()));
   std::vector<FramePlan> plans(static_cast<std::size_t>(options.starts));
   std::vector<double> costs(plans.size());
   tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t start) {
-    FrameChoice choice(pyramid.back(), turned, statistics, 1 << (levels - 1), small, search, options, start);
+    FrameChoice choice(plain, turned, statistics, 1 << (levels - 1), small, search, options, start);
     costs[start] = choice.improve();
     plans[start] = choice.plan();
   });

@@ -31,9 +31,10 @@ std::vector<FeatureImage> pyramid_down_to(const FeatureImage& image, Size tile, 
 
 // Texels beyond its borders that are kept beside a tile while it is mended: what its strips show there, which
 // is what any neighbour shows unless its own cut runs closer. Without them a seam would drift to the border,
-// where nothing would tell how it looks from the other side.
+// where nothing would tell how it looks from the other side. As wide as half a square of the coarse polish,
+// rounded up.
 int margin_of(const FrameShape& shape) {
-  return std::min(4, shape.reach);
+  return std::min(8, shape.reach);
 }
 
 SourceCanvas with_margin(const FrameShape& shape, const FramePlan& plan, const Frame& frame, std::size_t id,
@@ -87,6 +88,16 @@ std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
   return fixed;
 }
 
+void polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std::uint8_t>& fixed,
+                 const FramedSetSettings& settings, std::string_view purpose, std::size_t index,
+                 SourceCanvas& canvas) {
+  PolishOptions coarse = settings.coarse_polish;
+  PolishOptions fine = settings.polish;
+  coarse.seed = fine.seed = random_bits(fine.seed, purpose, index);
+  if (pyramid.size() > 1) polish_at_half_size(pyramid[1], fixed, coarse, canvas);
+  polish(pyramid.front(), fixed, fine, canvas);
+}
+
 // Strips are mended before tiles are made of them, so that what crosses an edge is mended on both its sides.
 // The squares at the lattice points, which all strips there share, stay.
 void mend_frame(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const FrameShape& shape,
@@ -105,9 +116,7 @@ void mend_frame(const std::vector<FeatureImage>& pyramid, const PatchSearch& sea
     MendOptions mend = settings.mend;
     mend.spots = settings.strip_spots;
     mend_spots(pyramid, search, fixed, mend, canvas);
-    PolishOptions own = settings.polish;
-    own.seed = random_bits(settings.polish.seed, "polish strip", i);
-    polish(pyramid.front(), fixed, own, canvas);
+    polish_both(pyramid, fixed, settings, "polish strip", i, canvas);
   });
 }
 
@@ -139,6 +148,10 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   settings.mend.tries = row.tries;
   settings.polish.seed = seed;
   settings.polish.passes = row.polish_passes;
+  settings.polish.doubt = 100;
+  settings.coarse_polish.passes = row.polish_passes;
+  settings.coarse_polish.reach = 6;
+  settings.coarse_polish.seam_threshold = 500;
   return settings;
 }
 
@@ -146,9 +159,8 @@ SourceMap framed_set(const FeatureImage& image, const SynthOptions& options,
                      const FramedSetSettings& settings, const Progress& progress) {
   FrameShape shape = frame_shape(options, settings.reach, settings.corner_reach);
   const SampleStatistics statistics(image);
-  std::vector<FeatureImage> pyramid = pyramid_down_to(image, shape.tile, settings.smallest_search_tile);
+  const std::vector<FeatureImage> pyramid = pyramid_down_to(image, shape.tile, settings.smallest_search_tile);
   const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
-  pyramid = pyramid_down_to(image, shape.tile, settings.smallest_interior_tile);
   const PatchSearch search(pyramid.back());
   Frame frame = joined_frame(image, shape, plan);
   mend_frame(pyramid, search, shape, settings, frame);
@@ -162,9 +174,7 @@ SourceMap framed_set(const FeatureImage& image, const SynthOptions& options,
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
     SourceCanvas canvas = with_margin(shape, plan, frame, id, tiles[id]);
     mend_spots(pyramid, search, fixed, settings.mend, canvas);
-    PolishOptions own = settings.polish;
-    own.seed = random_bits(settings.polish.seed, "polish tile", id);
-    polish(image, fixed, own, canvas);
+    polish_both(pyramid, fixed, settings, "polish tile", id, canvas);
     tiles[id] = without_margin(shape, canvas);
   });
   report(progress, "mending", 1.0);

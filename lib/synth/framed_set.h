@@ -12,15 +12,15 @@ namespace tilepack {
 
 /// All that decides how a framed set is made, apart from what the user asked for.
 struct FramedSetSettings {
-  double reach = 0.125;         ///< half the width of a strip, of the tile's smaller side
-  double corner_reach = 0.1875; ///< how far corner patches reach along the edges, likewise
-  int smallest_search_tile =
-      32; ///< the frame is searched at the scale at which the smaller side is at least this
-  int smallest_interior_tile = 64; ///< and the insides at this
+  double reach = 0.125;          ///< half the width of a strip, of the tile's smaller side
+  double corner_reach = 0.1875;  ///< how far corner patches reach along the edges, likewise
+  int smallest_search_tile = 32; ///< frame and insides are searched at the scale at which the tile's smaller
+                                 ///< side is at least this
   FrameSearchOptions frame;
   InteriorOptions interiors;
   MendOptions mend;
-  int strip_spots = 4; ///< as mend.spots, for each strip
+  int strip_spots = 4;         ///< as mend.spots, for each strip
+  PolishOptions coarse_polish; ///< at half size, before
   PolishOptions polish;
 };
 

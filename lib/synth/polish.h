@@ -26,4 +26,9 @@ struct PolishOptions {
 void polish(const FeatureImage& image, const std::vector<std::uint8_t>& fixed, const PolishOptions& options,
             SourceCanvas& canvas);
 
+/// The same at half size, where a square sees twice as far: `half_image` is the sample halved. What changes
+/// there is brought back as squares of 2 × 2 texels, which want polishing at full size next.
+void polish_at_half_size(const FeatureImage& half_image, const std::vector<std::uint8_t>& fixed,
+                         const PolishOptions& options, SourceCanvas& canvas);
+
 } // namespace tilepack
