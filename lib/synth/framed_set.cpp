@@ -12,12 +12,13 @@ namespace tilepack {
 namespace {
 
 // Above this many texels a search would take more memory than the sample itself.
-constexpr std::int64_t most_searched_texels = 300'000;
+constexpr std::int64_t most_searched_texels = 150'000;
 
 // The image halved again and again while its tiles stay at least `smallest_tile` texels wide, and further if
 // it is too large to be searched.
-std::vector<FeatureImage> pyramid_down_to(const FeatureImage& image, Size tile, int smallest_tile) {
-  std::vector<FeatureImage> levels{image};
+std::vector<FeatureImage> pyramid_down_to(FeatureImage image, Size tile, int smallest_tile) {
+  std::vector<FeatureImage> levels;
+  levels.push_back(std::move(image));
   int side = std::min(tile.width, tile.height);
   const auto too_large = [&] {
     return static_cast<std::int64_t>(levels.back().width) * levels.back().height > most_searched_texels;
@@ -155,11 +156,13 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   return settings;
 }
 
-SourceMap framed_set(const FeatureImage& image, const SynthOptions& options,
+SourceMap framed_set(FeatureImage sample, const SynthOptions& options,
                      const FramedSetSettings& settings, const Progress& progress) {
   FrameShape shape = frame_shape(options, settings.reach, settings.corner_reach);
+  const std::vector<FeatureImage> pyramid =
+      pyramid_down_to(std::move(sample), shape.tile, settings.smallest_search_tile);
+  const FeatureImage& image = pyramid.front();
   const SampleStatistics statistics(image);
-  const std::vector<FeatureImage> pyramid = pyramid_down_to(image, shape.tile, settings.smallest_search_tile);
   const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
   const PatchSearch search(pyramid.back());
   Frame frame = joined_frame(image, shape, plan);

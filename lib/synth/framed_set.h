@@ -29,7 +29,7 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed);
 
 /// Interior::patch: chooses a frame, gives every tile its own inside, joins them by cuts, and mends what is
 /// worst. Both colorings; see FrameShape for the construction.
-SourceMap framed_set(const FeatureImage& image, const SynthOptions& options,
+SourceMap framed_set(FeatureImage sample, const SynthOptions& options,
                      const FramedSetSettings& settings, const Progress& progress = {});
 
 } // namespace tilepack

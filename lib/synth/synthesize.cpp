@@ -70,9 +70,9 @@ SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& opt
                      const Progress& progress) {
   require_valid(options);
   require_fitting(samples, options);
-  const FeatureImage image = feature_image(samples);
+  FeatureImage image = feature_image(samples);
   if (options.interior == Interior::patch)
-    return framed_set(image, options, settings_for(options.effort, options.seed), progress);
+    return framed_set(std::move(image), options, settings_for(options.effort, options.seed), progress);
   return quilted(image, options, chosen_edge_patches(image, options, progress));
 }
 
