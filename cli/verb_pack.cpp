@@ -60,8 +60,8 @@ Role role_of(const std::string& name) {
 // Unless told otherwise, the layout and mapping that go with the colors.
 BakeOptions options_from(const PackArguments& arguments, const TileColors& tiles) {
   std::vector<BakeSetting> settings;
-  if (coloring_of(tiles) == Coloring::corner)
-    settings.push_back({"coloring", "corner", "", ErrorKind::internal});
+  const bool corner = coloring_of(tiles) == Coloring::corner;
+  settings.push_back({"coloring", corner ? "corner" : "edge", "", ErrorKind::internal});
   for (const auto& [field, value] : arguments.fields)
     settings.push_back({field, value, "--" + field, ErrorKind::usage});
   return bake_options(settings);

@@ -179,7 +179,8 @@ std::vector<BakeField> make_fields() {
       {"tile-size", Type::extent, "N|WxH|auto",
        "side of a tile in texels, 4 to 4096; auto: whole periods of the sample near 128", set_tile_size,
        get_tile_size},
-      {"coloring", Type::choice, alternatives(colorings), "what neighbouring tiles agree on", set_coloring,
+      {"coloring", Type::choice, alternatives(colorings),
+       "what neighbouring tiles agree on; corner unless another option is for edge colors only", set_coloring,
        [](const O& o) { return name_in(colorings, o.synth.coloring); }},
       {"colors", Type::extent, "N|HxV",
        "colors of horizontal and vertical edges, 1 to 8, or of corners, 1 to 4", set_colors, get_colors},
@@ -258,6 +259,18 @@ std::vector<BakeField> make_fields() {
   };
 }
 
+// Whether something is asked for that only edge-colored tiles have.
+bool asks_for_edge_colors(const std::map<std::string, const BakeSetting*>& settings) {
+  const auto value = [&](const char* field) {
+    const auto found = settings.find(field);
+    return found == settings.end() ? std::string() : found->second->value;
+  };
+  const std::string colors = value("colors");
+  return value("layout") == "tile-index" || value("corner-pack") == "true" || value("set") == "sequential" ||
+         value("interior") == "quilt" || colors.find('x') != std::string::npos ||
+         (colors.size() == 1 && colors >= "5" && colors <= "8");
+}
+
 } // namespace
 
 std::span<const BakeField> bake_fields() {
@@ -275,6 +288,7 @@ BakeOptions bake_options(std::span<const BakeSetting> settings) {
   std::map<std::string, const BakeSetting*> last;
   for (const BakeSetting& setting : settings) last[setting.field] = &setting;
   BakeOptions options;
+  if (!last.contains("coloring")) set_coloring(options, asks_for_edge_colors(last) ? "edge" : "corner");
   const auto apply = [&](const BakeField& field) {
     const auto found = last.find(field.name);
     if (found == last.end()) return;

@@ -47,8 +47,11 @@ struct BakeSetting {
   ErrorKind blame = ErrorKind::usage; ///< kind of the error if the value is no good
 };
 
-/// Options with the given settings, of those for one field the last; the rest are defaults. Defaults follow
-/// the coloring: corner-colored packs have 2 corner colors and the de Bruijn layout.
+/// Options with the given settings, of those for one field the last; the rest are defaults. Colors are those
+/// of corners unless told otherwise or something is asked for that only edge-colored tiles have (layout
+/// tile-index, a corner pack, a sequential set, quilted insides, HxV or more than 4 colors). Defaults follow
+/// the coloring: corner-colored packs have 2 colors and the de Bruijn layout, edge-colored ones 2 x 2 and the
+/// tile-index layout.
 BakeOptions bake_options(std::span<const BakeSetting> settings);
 
 /// Every set field as (name, value), as it would stand on the command line; the seed is left out.

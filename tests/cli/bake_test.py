@@ -46,7 +46,7 @@ class Bake(CommandCase):
     def test_schema_and_program_refuse_the_same(self):
         with open(os.path.join(SOURCE, "lib/pack/pack.schema.json"), encoding="utf-8") as stream:
             validator = jsonschema.Draft202012Validator(json.load(stream))
-        self.bake("--mapping", "permutation")
+        self.bake("--mapping", "permutation", "--coloring", "edge")
         good = self.pack()
         for place, value in [(("version",), 2), (("tile_size", 0), 0), (("maps", 0, "levels", 0, "file"), "../a"),
                              (("mapping", "table", 0), -1), (("colors", "vertical"), 9), (("mips", "filter"), "sinc"),

@@ -41,7 +41,7 @@ class Arguments(CommandCase):
 
     def test_values_that_contradict_each_other(self):
         sample = self.noise_png("sample.png")
-        for arguments in (("--layout", "de-bruijn"), ("--coloring", "corner", "--layout", "tile-index"),
+        for arguments in (("--coloring", "edge", "--layout", "de-bruijn"), ("--coloring", "corner", "--layout", "tile-index"),
                           ("--coloring", "corner", "--colors", "5"), ("--coloring", "corner", "--colors", "2x2"),
                           ("--format", "png", "--depth", "f16"), ("--format", "exr", "--depth", "u8"),
                           ("--mapping", "permutation", "--virtual-size", "5000"), ("--mapping", "index", "--virtual-size", "20000"),

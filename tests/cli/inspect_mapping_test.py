@@ -24,7 +24,7 @@ class InspectMapping(CommandCase):
         self.assertIn("no fault found", self.run_tilepack("inspect", "pack", "--mapping").stdout)
 
     def test_tables_of_8_to_4096_entries(self):
-        self.bake()
+        self.bake("--coloring", "edge")
         tables = {each["table_size"]: each for each in self.report()["mappings"] if each["kind"] == "permutation"}
         self.assertEqual(sorted(tables), [8, 16, 32, 64, 65, 128, 256, 512, 1024, 2048, 4096])
         vertical = {size: each["families"][2] for size, each in tables.items()}

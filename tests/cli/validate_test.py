@@ -78,7 +78,7 @@ class Validate(CommandCase):
             "missing field": ("TP102", lambda: self.edit(lambda document: document.pop("mips"))),
             "unknown field": ("TP103", field(["layouts"], {})),
             "wrong type": ("TP104", field(["tile_size"], "32")),
-            "out of range": ("TP105", field(["colors", "vertical"], 9)),
+            "out of range": ("TP105", field(["colors", "corner"], 9)),
             "overflow": ("TP105", field(["tile_size", 0], 2**40)),
             "contradiction": ("TP106", field(["tile_size"], [8, 8])),
             "missing file": ("TP201", lambda: os.unlink(self.path("pack", "color_2.png"))),

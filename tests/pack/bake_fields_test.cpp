@@ -149,3 +149,21 @@ TEST_CASE("presets name the key, the value and the range", "[pack]") {
   CHECK_THAT(preset_fault(R"({"cost": "c"})"), Contains("\"purpose\" is missing"));
   CHECK_THAT(preset_fault("[]"), Contains("must be an object"));
 }
+
+TEST_CASE("colors are of corners unless something asks for edges") {
+  const auto coloring = [](const std::string& field, const std::string& value) {
+    return with(field, value).synth.coloring;
+  };
+  CHECK(bake_options({}).synth.coloring == Coloring::corner);
+  CHECK(bake_options({}).layout == LayoutKind::de_bruijn);
+  for (const auto& [field, value] : {std::pair{"colors", "3"}, {"layout", "array"}, {"corner-pack", "false"}})
+    CHECK(coloring(field, value) == Coloring::corner);
+  for (const auto& [field, value] : {std::pair{"colors", "2x3"},
+                                     {"colors", "5"},
+                                     {"layout", "tile-index"},
+                                     {"corner-pack", "true"},
+                                     {"set", "sequential"},
+                                     {"interior", "quilt"},
+                                     {"coloring", "edge"}})
+    CHECK(coloring(field, value) == Coloring::edge);
+}

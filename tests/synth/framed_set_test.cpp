@@ -176,6 +176,26 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
     if (fixed[i]) CHECK((mended.texels[i] == start.texels[i] && polished.texels[i] == start.texels[i]));
 }
 
+TEST_CASE("polishing at half size changes texels near a seam to others of the sample, fixed ones never") {
+  const SampleMap map = testing::color_map(blobs(256, 256));
+  const FeatureImage image = feature_image(std::span(&map, 1));
+  SourceCanvas start(96, 80);
+  std::vector<std::uint8_t> fixed(start.texels.size());
+  for (int y = 0; y < start.height; ++y)
+    for (int x = 0; x < start.width; ++x) {
+      start.at(x, y) = x < 48 ? SourceTexel{x, y} : SourceTexel{x + 91, y + 120};
+      fixed[start.index(x, y)] = x < 46;
+    }
+  SourceCanvas polished = start;
+  polish_at_half_size(halved(image), fixed, {}, polished);
+  CHECK(polished.texels != start.texels);
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const SourceTexel s = polished.texels[i];
+    CHECK((s.x >= 0 && s.y >= 0 && s.x < image.width && s.y < image.height));
+    if (fixed[i] || i % 96 > 60) CHECK(s == start.texels[i]); // the last are out of reach
+  }
+}
+
 TEST_CASE("the sample's own statistics are at distance nought, a part's are not") {
   const SampleMap map = testing::color_map(blobs(64, 64));
   const SampleStatistics statistics(feature_image(std::span(&map, 1)));
