@@ -11,6 +11,7 @@
 #include "tilepack/pack/preset.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <filesystem>
@@ -47,6 +48,19 @@ std::string listed_presets() {
     text += '\n';
   }
   return text;
+}
+
+std::string listed_presets_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Preset& preset : built_in_presets()) {
+    nlohmann::ordered_json settings = nlohmann::ordered_json::object();
+    for (const BakeSetting& setting : preset.settings) settings[setting.field] = setting.value;
+    list.push_back({{"name", preset.name},
+                    {"purpose", preset.purpose},
+                    {"cost", preset.cost},
+                    {"settings", std::move(settings)}});
+  }
+  return list.dump(2) + "\n";
 }
 
 std::string text_of(const std::string& file) {
@@ -102,7 +116,7 @@ private:
 
 int run_bake(const BakeArguments& arguments, Console& console) {
   if (arguments.list_presets) {
-    console.print(listed_presets());
+    console.print(arguments.report_format == "json" ? listed_presets_json() : listed_presets());
     return 0;
   }
   if (arguments.sample.empty()) throw Error(ErrorKind::usage, "", "SAMPLE is required");
@@ -117,6 +131,7 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   Stopwatch watch;
   check_pack_folder(arguments.folder); // before minutes are spent on what can't be stored
   const Progress progress = console.progress();
+  report(progress, "reading", 0.0);
   const std::vector<SampleMap> samples = read_samples(files, asked);
   const double read_seconds = watch.lap();
   const Pack pack = bake(samples, options, progress);
@@ -168,7 +183,8 @@ Action declare_bake(CLI::App& app) {
       ->type_name("srgb|linear");
   app.add_option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
       ->type_name("FILE");
-  app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
+  app.add_option("--report-format", arguments->report_format,
+                 "of the summary or the list of presets on stdout")
       ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
   add_jobs_option(app, arguments->jobs);

@@ -44,12 +44,16 @@ int run_compare(const CompareArguments& arguments, Console& console) {
                             packs ? "a pack" : "an image", arguments.b, packs ? "an image" : "a pack"));
   if (packs && !arguments.picture.empty())
     throw Error(ErrorKind::usage, "--picture", "is for two images; name two of the packs' files instead");
+  const Progress progress = console.progress();
+  report(progress, "reading", 0.0);
   Comparison comparison;
   if (packs) {
     comparison = compared(read_pack(arguments.a), read_pack(arguments.b));
   } else {
     const ImageFile a = read_image(arguments.a);
+    report(progress, "reading", 0.5);
     const ImageFile b = read_image(arguments.b);
+    report(progress, "comparing", 0.0);
     comparison = compared(a, b);
     if (!arguments.picture.empty()) write_picture(arguments, a, b);
   }
@@ -67,7 +71,7 @@ Action declare_compare(CLI::App& app) {
   app.add_option("A", arguments->a, "image, or pack (folder or pack.json)")->required()->type_name("");
   app.add_option("B", arguments->b, "of the same kind")->required()->type_name("");
   app.add_option("--format", arguments->format, "of the report on stdout")
-      ->check(CLI::IsMember({"text", "json"}))
+      ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
   app.add_option("--max-difference", arguments->limits.max_difference,
                  "alike if no value differs by more: 1/255 for integer images, plain for float")

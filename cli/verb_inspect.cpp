@@ -103,7 +103,7 @@ Action declare_inspect(CLI::App& app) {
   auto arguments = std::make_shared<InspectArguments>();
   app.add_option("PACK", arguments->pack, "folder or pack.json")->required()->type_name("");
   app.add_option("--format", arguments->format, "of the summary on stdout")
-      ->check(CLI::IsMember({"text", "json"}))
+      ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
   app.add_option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
       ->type_name("FILE.png|.svg");

@@ -163,7 +163,7 @@ Action declare_layouts(CLI::App& app) {
       ->type_name("IMAGE");
   app.add_flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
   app.add_option("--format", arguments->format, "of the table")
-      ->check(CLI::IsMember({"text", "json"}))
+      ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
   return [arguments](Console& console) { return run_layouts(*arguments, console); };
 }

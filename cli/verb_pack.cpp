@@ -124,7 +124,7 @@ Action declare_pack(CLI::App& app) {
       ->required();
   app.add_option("--name", arguments->name, "of the map in the pack")->type_name("NAME");
   app.add_option("--role", arguments->role, "what the values mean")
-      ->check(CLI::IsMember({"color", "normal", "roughness", "height", "data"}))
+      ->check(CLI::IsMember({"color", "normal", "roughness", "height", "data"}).description(""))
       ->type_name("ROLE");
   app.add_option("--tolerance", arguments->tolerance,
                  "by how much borders of one color may differ, in parts of full scale")
@@ -143,7 +143,7 @@ Action declare_pack(CLI::App& app) {
       app.add_option_function<std::string>("--" + field.name, store, field.help)->type_name(field.value);
   }
   app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
-      ->check(CLI::IsMember({"text", "json"}))
+      ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
   add_jobs_option(app, arguments->jobs);
   return [arguments](Console& console) { return run_pack(*arguments, console); };

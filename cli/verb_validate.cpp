@@ -59,7 +59,7 @@ Action declare_validate(CLI::App& app) {
   auto arguments = std::make_shared<ValidateArguments>();
   app.add_option("PACK", arguments->pack, "folder or pack.json")->type_name("");
   app.add_option("--format", arguments->format, "of the report on stdout")
-      ->check(CLI::IsMember({"text", "json", "csv"}))
+      ->check(CLI::IsMember({"text", "json", "csv"}).description(""))
       ->type_name("text|json|csv");
   app.add_flag(
       "--against-reference", arguments->against_reference,

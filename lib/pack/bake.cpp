@@ -53,7 +53,7 @@ void check_fit(const SampleMap& sample, Size tile) {
   const std::string way_out =
       side >= least_tile_side
           ? fmt::format("take tiles of {0} at most (--tile-size {0}) or a larger sample", side)
-          : fmt::format("no tile fits, since it has {} texels a side at least: take a larger sample",
+          : fmt::format("no tile fits, since tiles have at least {} texels a side: take a larger sample",
                         least_tile_side);
   throw Error(ErrorKind::invalid_content, label_of(sample),
               fmt::format("has {} x {} texels, too few for a tile of {} x {}; {}", size.width, size.height,

@@ -33,13 +33,13 @@ struct Extent {
 
 // "5" or "5x7".
 Extent extent(const std::string& text, std::int64_t lowest, std::int64_t highest,
-              const std::string& words = "") {
+              const std::string& words = "", const char* form = "WxH") {
   const std::size_t cross = text.find('x');
   Extent e{};
   if (!parse_whole(std::string_view(text).substr(0, cross), lowest, highest, e.width) ||
       !parse_whole(std::string_view(text).substr(cross == std::string::npos ? 0 : cross + 1), lowest, highest,
                    e.height))
-    refuse(text, fmt::format("N or WxH with {} to {}{}", lowest, highest, words));
+    refuse(text, fmt::format("N or {} with {} to {}{}", form, lowest, highest, words));
   return e;
 }
 
@@ -110,7 +110,7 @@ void set_colors(BakeOptions& o, const std::string& text) {
   if (o.synth.coloring == Coloring::corner) {
     o.synth.colors = {0, 0, static_cast<int>(whole(text, 1, 4))};
   } else {
-    const Extent e = extent(text, 1, 8, "; H horizontal and V vertical colors as HxV");
+    const Extent e = extent(text, 1, 8, ": H horizontal and V vertical colors", "HxV");
     o.synth.colors = {static_cast<int>(e.width), static_cast<int>(e.height), 0};
   }
 }

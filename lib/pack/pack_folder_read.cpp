@@ -29,6 +29,9 @@ std::string pack_json_text(const fs::path& pack_json) {
                 "there is no such file; a pack is a folder with a pack.json");
   if (!fs::is_regular_file(status))
     throw Error(ErrorKind::cannot_read, pack_json.string(), "is no plain file");
+  if (pack_json.extension() != ".json")
+    throw Error(ErrorKind::cannot_read, pack_json.string(),
+                "is no pack; name the pack's folder or its pack.json");
   const std::uintmax_t size = fs::file_size(pack_json, fault);
   if (!fault && size > largest_json)
     throw Error(ErrorKind::invalid_content, pack_json.string(),

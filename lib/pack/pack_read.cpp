@@ -1,8 +1,8 @@
 #include "tilepack/pack/pack_read.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/image/image_format.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/image/image_format.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_json.h"

@@ -135,6 +135,13 @@ class Bake(CommandCase):
                 self.bake("--tile-size", size)
                 self.assertEqual(self.pack()["mips"]["tile_levels"], levels)
 
+    def test_presets_are_listed_for_machines_too(self):
+        listing = json.loads(self.run_tilepack("bake", "--list-presets", "--report-format", "json").stdout)
+        self.assertLessEqual({"preview", "default", "terrain", "wall", "hero"}, {p["name"] for p in listing})
+        for preset in listing:
+            self.assertEqual(set(preset), {"name", "purpose", "cost", "settings"})
+            self.assertTrue(preset["settings"])
+
     def test_every_preset_bakes(self):
         listing = self.run_tilepack("bake", "--list-presets").stdout
         names = re.findall(r"^(\S+)$", listing, re.MULTILINE)

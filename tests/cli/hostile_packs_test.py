@@ -59,6 +59,11 @@ class PackFiles(CommandCase):
         self.refuses(good.replace("color_0.png", "/etc/passwd"), ["maps[0].levels[0].file"])
         self.refuses(good.replace("color_0.png", "..\\\\sample.png"), ["maps[0].levels[0].file"])
 
+    def test_an_image_is_no_pack(self):
+        self.noise_png("photo.png")
+        for verb in ("inspect", "validate"):
+            self.refused(verb, "photo.png", code=2, saying=["photo.png", "is no pack", "pack.json"])
+
     def test_links_that_lead_out(self):
         shutil.copy(self.path("out/color_0.png"), self.path("elsewhere.png"))
         os.remove(self.path("out/color_0.png"))
