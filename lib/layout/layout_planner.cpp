@@ -26,7 +26,7 @@ std::vector<RotatedScheme> wanted_schemes(const PlanRequest& request) {
   if (std::find(schemes.begin(), schemes.end(), *request.scheme) == schemes.end()) {
     std::string known;
     for (const RotatedScheme& scheme : schemes) known += (known.empty() ? "" : ", ") + formula(scheme);
-    throw Error(ErrorKind::usage, "scheme",
+    throw Error(ErrorKind::usage, "--scheme",
                 fmt::format("{} does not hold {} tiles; these do: {}", formula(*request.scheme),
                             request.tiles, known));
   }

@@ -21,7 +21,7 @@ Size rotated_texture_size(const RotatedScheme& scheme, const RotatedTexture& tex
     throw Error(ErrorKind::usage, "layout rotated",
                 fmt::format("tile side {}; 1 to {} texels", texture.tile_side, longest_tile_side));
   if (texture.gutter < 0 || texture.gutter > texture.tile_side)
-    throw Error(ErrorKind::usage, "gutter",
+    throw Error(ErrorKind::usage, "--gutter",
                 fmt::format("{} texels; 0 to the tile's side, {}", texture.gutter, texture.tile_side));
   const std::int64_t cell = texture.tile_side + 2 * texture.gutter;
   const std::int64_t area = cell * cell * (scheme.n * scheme.n + scheme.k * scheme.k);

@@ -10,7 +10,7 @@ std::vector<EdgeTile> sequential_edge_set(int horizontal_colors, int vertical_co
   const auto out_of_range = [](int colors) { return colors < 1 || colors > 8; };
   if (out_of_range(horizontal_colors) || out_of_range(vertical_colors) ||
       horizontal_colors * vertical_colors < 2)
-    throw Error(ErrorKind::usage, "colors",
+    throw Error(ErrorKind::usage, "--colors",
                 std::to_string(horizontal_colors) + "x" + std::to_string(vertical_colors) +
                     "; a sequential set takes 1 to 8 colors of each kind, and at least 2 of one");
   std::vector<EdgeTile> tiles;

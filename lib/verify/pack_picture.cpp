@@ -1,6 +1,7 @@
 #include "tilepack/verify/pack_picture.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/image/wrap.h"
 #include "tilepack/layout/corner_grid.h"
 #include "tilepack/sampler/virtual_texture.h"
 
@@ -115,21 +116,100 @@ TileFrame frame_of(const Placement& place, int factor) {
           {place.south.x * factor, place.south.y * factor}};
 }
 
-// A turned tile goes on beyond the texture's borders, where it enters again on the other side.
-void draw_wrapped(Drawing& drawing, const TileColors& tiles, int tile, const TileFrame& frame) {
-  const double width = drawing.background.width();
-  const double height = drawing.background.height();
+// A turned tile goes on beyond the texture's borders, where it enters again on the other side. The drawing
+// shows `margin` pixels of what lies there.
+void draw_wrapped(Drawing& drawing, const TileColors& tiles, int tile, const TileFrame& frame, int margin) {
+  const double width = drawing.background.width() - 2 * margin;
+  const double height = drawing.background.height() - 2 * margin;
   const double left = std::min({0.0, frame.along.x, frame.down.x, frame.along.x + frame.down.x});
   const double right = std::max({0.0, frame.along.x, frame.down.x, frame.along.x + frame.down.x});
   const double top = std::min({0.0, frame.along.y, frame.down.y, frame.along.y + frame.down.y});
   const double bottom = std::max({0.0, frame.along.y, frame.down.y, frame.along.y + frame.down.y});
   for (int down = -2; down <= 2; ++down)
     for (int across = -2; across <= 2; ++across) {
-      const DrawingPoint corner{frame.corner.x + across * width, frame.corner.y + down * height};
-      const bool seen =
-          corner.x + left < width && corner.x + right > 0 && corner.y + top < height && corner.y + bottom > 0;
+      const DrawingPoint corner{margin + frame.corner.x + across * width,
+                                margin + frame.corner.y + down * height};
+      const bool seen = corner.x + left < width + 2 * margin && corner.x + right > 0 &&
+                        corner.y + top < height + 2 * margin && corner.y + bottom > 0;
       if (seen) draw_marks(drawing, tiles, tile, {corner, frame.along, frame.down});
     }
+}
+
+Image with_wrapped_margin(const Image& image, int margin) {
+  Image result(image.width() + 2 * margin, image.height() + 2 * margin, image.channels());
+  for (int y = 0; y < result.height(); ++y)
+    for (int x = 0; x < result.width(); ++x)
+      std::ranges::copy(image.texel(wrapped(x - margin, image.width()), wrapped(y - margin, image.height())),
+                        result.texel(x, y).begin());
+  return result;
+}
+
+std::vector<DrawingPoint> rectangle(double left, double top, double right, double bottom) {
+  return {{left, top}, {right, top}, {right, bottom}, {left, bottom}};
+}
+
+// What lies beyond the texture's borders is veiled, and tiles are numbered within them only.
+void veil_margin(Drawing& drawing, int margin) {
+  const double width = drawing.background.width();
+  const double height = drawing.background.height();
+  const double m = margin;
+  const Paint veil{1, 1, 1, 0.6};
+  drawing.shapes.push_back({rectangle(0, 0, width, m), veil});
+  drawing.shapes.push_back({rectangle(0, height - m, width, height), veil});
+  drawing.shapes.push_back({rectangle(0, m, m, height - m), veil});
+  drawing.shapes.push_back({rectangle(width - m, m, width, height - m), veil});
+  const TileFrame border{{m, m}, {width - 2 * m, 0}, {0, height - 2 * m}};
+  for (const auto& line : picture_frame(border, 0, 1.5 / std::min(width, height)))
+    drawing.shapes.push_back({line, {0, 0, 0, 1}});
+  std::erase_if(drawing.numbers, [&](const DrawingNumber& n) {
+    return n.centre.x < m || n.centre.y < m || n.centre.x >= width - m || n.centre.y >= height - m;
+  });
+}
+
+// Where a layer of an array is drawn: side by side, as many to a row as make the picture about square.
+struct LayerSheet {
+  int columns;
+  int rows;
+  Size cell; // a layer and the gap round it, pixels
+  int gap;
+
+  DrawingPoint corner(int layer) const {
+    return {static_cast<double>(layer % columns * cell.width + gap),
+            static_cast<double>(layer / columns * cell.height + gap)};
+  }
+};
+
+LayerSheet sheet_for(int layers, Size layer, int gap) {
+  int columns = 1;
+  while (columns * columns < layers) ++columns;
+  return {columns, (layers + columns - 1) / columns, {layer.width + gap, layer.height + gap}, gap};
+}
+
+Drawing layers_picture(const Pack& pack, const PackedMap& map, const PackPictureOptions& options) {
+  const int layers = pack.layout.rows;
+  const Size whole = texture_size(pack.layout, pack.tile_size, 0);
+  const LayerSheet fine = sheet_for(layers, {whole.width, whole.height / layers}, 4);
+  const int level = level_of(map, std::int64_t{fine.columns} * fine.cell.width,
+                             std::int64_t{fine.rows} * fine.cell.height, options);
+  const int factor = magnification(level_size(pack.tile_size, level), options.min_tile_side);
+  const Image strip =
+      magnified(viewable(map.levels[static_cast<std::size_t>(level)], map.role, map.encoding), factor);
+  const Size layer{strip.width(), strip.height() / layers};
+  const LayerSheet sheet = sheet_for(layers, layer, 4);
+  Drawing drawing{Image(sheet.columns * sheet.cell.width + sheet.gap,
+                        sheet.rows * sheet.cell.height + sheet.gap, 3, 1.0f),
+                  {},
+                  {}};
+  for (const Cell& cell : pack.layout.cells) {
+    const DrawingPoint corner = sheet.corner(cell.row);
+    paste(drawing.background, crop(strip, {0, cell.row * layer.height, layer.width, layer.height}),
+          static_cast<int>(corner.x), static_cast<int>(corner.y));
+    if (!options.marks) continue;
+    TileFrame frame = frame_of(placement(pack.layout, cell.tile, pack.tile_size, level), factor);
+    frame.corner = {frame.corner.x + corner.x, frame.corner.y - cell.row * layer.height + corner.y};
+    draw_marks(drawing, pack.tiles, cell.tile, frame);
+  }
+  return drawing;
 }
 
 Drawing background_of(const PackedMap& map, int level, int factor) {
@@ -217,18 +297,23 @@ Image viewable(const Image& image, Role role, Encoding encoding) {
 
 Drawing pack_picture(const Pack& pack, const PackPictureOptions& options) {
   const PackedMap& map = map_of(pack, options);
+  if (pack.layout.kind == LayoutKind::array) return layers_picture(pack, map, options);
   const Size whole = texture_size(pack.layout, pack.tile_size, 0);
   const int level = level_of(map, whole.width, whole.height, options);
   const int factor = magnification(level_size(pack.tile_size, level), options.min_tile_side);
   Drawing drawing = background_of(map, level, factor);
   if (!options.marks) return drawing;
+  const bool turned = pack.layout.kind == LayoutKind::rotated && pack.layout.rotated.scheme.k > 0;
+  const int margin = turned ? level_size(pack.tile_size, level).width * factor / 3 : 0;
+  if (turned) drawing.background = with_wrapped_margin(drawing.background, margin);
   for (const Cell& cell : pack.layout.cells) {
     const TileFrame frame = frame_of(placement(pack.layout, cell.tile, pack.tile_size, level), factor);
     if (pack.layout.kind == LayoutKind::rotated)
-      draw_wrapped(drawing, pack.tiles, cell.tile, frame);
+      draw_wrapped(drawing, pack.tiles, cell.tile, frame, margin);
     else
       draw_marks(drawing, pack.tiles, cell.tile, frame);
   }
+  if (turned) veil_margin(drawing, margin);
   return drawing;
 }
 

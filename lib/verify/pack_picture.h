@@ -19,8 +19,9 @@ struct PackPictureOptions {
   int max_side = 4096;    ///< of the picture, for the choice of the level
 };
 
-/// The packed texture, whatever its layout; turned tiles are drawn again where they wrap. Throws Error
-/// (usage) if the map or level does not exist.
+/// The packed texture, whatever its layout. Round turned tiles lies a veiled margin that shows how the
+/// texture wraps; layers of an array lie side by side, each with its border. Throws Error (usage) if the map
+/// or level does not exist.
 Drawing pack_picture(const Pack& pack, const PackPictureOptions& options);
 
 /// The corner pack: each cell shows the tile whose south-east corner stands for a lattice point. Throws Error
