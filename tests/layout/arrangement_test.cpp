@@ -58,6 +58,9 @@ TEST_CASE("where colors can't agree the search says so") {
 TEST_CASE("a tile that is its own neighbour must agree with itself") {
   CHECK(matching_arrangement(std::vector<EdgeTile>{{0, 0, 0, 0}}, {1, 0, 1}).matching == Matching::found);
   CHECK(matching_arrangement(std::vector<EdgeTile>{{0, 0, 1, 0}}, {1, 0, 1}).matching == Matching::none);
+  // Two squares side by side: each tile lies above itself, and together these would balance.
+  const std::vector<EdgeTile> flipped{{0, 0, 1, 0}, {1, 0, 0, 0}};
+  CHECK(matching_arrangement(flipped, {1, 0, 2}).matching == Matching::none);
 }
 
 TEST_CASE("sequential sets of 8 and 18 tiles fill turned tori with all borders agreeing") {
