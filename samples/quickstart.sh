@@ -24,10 +24,11 @@ cat <<END
 
 Made from $sample, in $(pwd):
   out/pebbles/pack.json      the tile pack, with its images beside it
-  out/pebbles_pack.png       a picture of the pack: its 16 tiles, with the colors of their edges
+  out/pebbles_pack.png       a picture of the pack: its 16 tiles, with their colors drawn on
   out/pebbles_8x8.png        8 x 8 tiles of the endless texture they make
 
 To try next:
+  cd $(pwd)
   $tilepack bake PHOTO.jpg -o out/photo --colors 3       a sample of your own, with more tiles
   $tilepack bake samples/rock_albedo.png -o out/rock --map normal=samples/rock_normal.png \\
       --map roughness=samples/rock_roughness.png --map height=samples/rock_height.png
