@@ -4,9 +4,11 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/pack_write.h"
+#include "tilepack/pack/packing.h"
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <iterator>
@@ -63,6 +65,26 @@ TEST_CASE("a pack comes back as it was written, and is written again to the same
       CHECK(contents(temporary / "a") == contents(temporary / "b"));
       CHECK(read_pack(temporary / "a" / "pack.json").tile_size == pack.tile_size);
     }
+}
+
+TEST_CASE("an index map is stored in 8 bits, and in 16 for more than 256 tiles", "[pack]") {
+  const test::TemporaryFolder temporary;
+  for (const int tiles : {256, 257}) {
+    TileSet set{{4, 4}, {1, 1, 0}, std::vector<EdgeTile>(static_cast<std::size_t>(tiles)), {}, 0};
+    set.maps = {{"color", Role::color, Encoding::srgb, Depth::u8, {}}};
+    for (int id = 0; id < tiles; ++id)
+      set.maps[0].tiles.push_back(test::noise(4, 4, 3, static_cast<std::uint64_t>(id)));
+    PackingOptions options;
+    options.layout = LayoutKind::array;
+    options.mapping = MappingKind::index;
+    options.virtual_size = {60, 50};
+    const Pack pack = packed(std::move(set), options, 1);
+    REQUIRE(*std::max_element(pack.mapping.ids.begin(), pack.mapping.ids.end()) == tiles - 1);
+    write_pack(pack, temporary / std::to_string(tiles));
+    CHECK(read_image((temporary / std::to_string(tiles) / "index.png").string(), Encoding::linear).depth ==
+          (tiles > 256 ? Depth::u16 : Depth::u8));
+    CHECK(read_pack(temporary / std::to_string(tiles)).mapping.ids == pack.mapping.ids);
+  }
 }
 
 TEST_CASE("the number of threads leaves no trace", "[pack]") {
