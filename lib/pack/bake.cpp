@@ -3,9 +3,9 @@
 #include "tilepack/error/error.h"
 #include "tilepack/pack/bake_fields.h"
 #include "tilepack/pack/file_name.h"
+#include "tilepack/synth/feature_image.h"
 #include "tilepack/synth/period.h"
 #include "tilepack/tileset/sequential_set.h"
-#include "tilepack/tileset/subset.h"
 
 #include <fmt/format.h>
 
@@ -77,9 +77,24 @@ void check_samples(std::span<const SampleMap> samples) {
   }
 }
 
+// The sources of the tiles of `wanted`, in its order: ids change.
+SourceMap subset(SourceMap complete, const TileColors& wanted) {
+  if (complete.tiles == wanted) return complete;
+  SourceMap chosen{complete.tile_size, complete.colors, wanted, {}, complete.guard};
+  for (const EdgeTile& tile : std::get<std::vector<EdgeTile>>(wanted)) {
+    const int id = id_in_complete_set(tile, complete.colors.horizontal, complete.colors.vertical);
+    chosen.texels.push_back(std::move(complete.texels[static_cast<std::size_t>(id)])); // no tile twice
+  }
+  return chosen;
+}
+
 } // namespace
 
 Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress) {
+  return baked(samples, options, progress).pack;
+}
+
+BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress) {
   check_samples(samples);
   SynthOptions synth = options.synth;
   if (options.fit_tile_size)
@@ -89,13 +104,17 @@ Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const 
   const TileColors wanted = wanted_tiles(options);
   check_packing(options, wanted, synth.tile_size); // before the long stage
   check_fit(samples[0], synth.tile_size);
-  TileSet set = assembled(synthesize(samples, synth, progress), samples);
-  if (set.tiles != wanted) set = subset(set, wanted);
-  Pack pack = packed(std::move(set), options, options.synth.seed, progress);
-  pack.generator.version = TILEPACK_VERSION;
-  pack.generator.options = recorded_options(options);
-  pack.generator.seed = options.synth.seed;
-  return pack;
+  BakedPack result;
+  result.synth = synth;
+  result.sources = subset(synthesize(samples, synth, progress), wanted);
+  report(progress, "figures", 0.0);
+  result.report = set_report(feature_image(samples), result.sources);
+  result.pack = packed(assembled(result.sources, samples), options, options.synth.seed, progress);
+  result.pack.generator.version = TILEPACK_VERSION;
+  result.pack.generator.options = recorded_options(options);
+  result.pack.generator.seed = options.synth.seed;
+  result.pack.synthesis = result.report.figures;
+  return result;
 }
 
 } // namespace tilepack

@@ -2,6 +2,7 @@
 
 #include "tilepack/error/progress.h"
 #include "tilepack/pack/packing.h"
+#include "tilepack/synth/set_report.h"
 #include "tilepack/synth/synthesize.h"
 
 #include <optional>
@@ -30,5 +31,17 @@ struct BakeOptions : PackingOptions {
 /// other or would make a texture over most_texels_a_level; invalid_content for samples of unequal sizes or
 /// too small; and what the stages throw. Deterministic as they are.
 Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress = {});
+
+/// A pack and how it came about, for reports.
+struct BakedPack {
+  Pack pack;
+  SourceMap sources;  ///< where the pack's tiles come from, by the pack's ids
+  SetReport report;   ///< of these sources
+  SynthOptions synth; ///< as used: tile_size is the fitted one
+};
+
+/// As bake, which returns the pack alone.
+BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options,
+                const Progress& progress = {});
 
 } // namespace tilepack

@@ -4,6 +4,7 @@
 #include "tilepack/layout/resample.h"
 #include "tilepack/mapping/mapping.h"
 #include "tilepack/mip/mip_chain.h"
+#include "tilepack/synth/set_report.h"
 #include "tilepack/tileset/tile_set.h"
 
 #include <cstdint>
@@ -70,7 +71,8 @@ struct Pack {
   std::optional<CornerPack> corner_pack;
   MipMode mip_mode = MipMode::edges;
   int guard = 0;
-  int tile_levels = 0; ///< number of levels, level 0 counted
+  int tile_levels = 0;                 ///< number of levels, level 0 counted
+  std::optional<SetFigures> synthesis; ///< of a set made from a sample; nothing here is needed to sample it
 };
 
 } // namespace tilepack

@@ -354,6 +354,17 @@ CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vect
   return packed;
 }
 
+SetFigures read_synthesis(const JsonCursor& value) {
+  std::vector<std::string> known;
+  SetFigures figures;
+  for (const SetFigureField& field : set_figure_fields) {
+    known.emplace_back(field.name);
+    figures.*field.value = value.member(field.name).number(0, field.most);
+  }
+  value.only(known);
+  return figures;
+}
+
 } // namespace
 
 PackDescription parsed_pack_json(std::string_view text, const std::string& file) {
@@ -361,7 +372,7 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   root.member("format").one_of({"tilepack"});
   root.member("version").integer(1, 1);
   root.only({"format", "version", "generator", "tile_size", "coloring", "colors", "tiles", "layout", "maps",
-             "mapping", "corner_pack", "mips"});
+             "mapping", "corner_pack", "mips", "synthesis"});
   PackDescription result;
   Pack& pack = result.pack;
   pack.generator = read_generator(root.member("generator"));
@@ -378,6 +389,7 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   if (pack.mapping.kind != MappingKind::index) check_complete(root.member("tiles"), pack.tiles, pack.colors);
   if (const auto corner = root.find("corner_pack"))
     pack.corner_pack = read_corner_pack(*corner, pack, result.corner_files, used);
+  if (const auto synthesis = root.find("synthesis")) pack.synthesis = read_synthesis(*synthesis);
   return result;
 }
 

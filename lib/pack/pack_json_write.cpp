@@ -171,6 +171,12 @@ Json mips_json(const Pack& pack) {
           {"tile_levels", pack.tile_levels}};
 }
 
+Json synthesis_json(const SetFigures& figures) {
+  Json json;
+  for (const SetFigureField& field : set_figure_fields) json[std::string(field.name)] = figures.*field.value;
+  return json;
+}
+
 std::vector<LevelFiles> named_files(const std::vector<PackedMap>& maps, const std::string& prefix) {
   std::vector<LevelFiles> files;
   for (const PackedMap& map : maps) {
@@ -218,6 +224,7 @@ PackDescription described(const Pack& pack) {
   bare.mip_mode = pack.mip_mode;
   bare.guard = pack.guard;
   bare.tile_levels = pack.tile_levels;
+  bare.synthesis = pack.synthesis;
   result.map_files = named_files(pack.maps, "");
   if (pack.corner_pack) {
     const CornerPack& corner = *pack.corner_pack;
@@ -249,6 +256,7 @@ std::string pack_json(const PackDescription& description) {
                            {"width", pack.corner_pack->width},
                            {"maps", maps_json(pack.corner_pack->maps, description.corner_files)}};
   json["mips"] = mips_json(pack);
+  if (pack.synthesis) json["synthesis"] = synthesis_json(*pack.synthesis);
   std::string text;
   print(json, 0, 0, text);
   return text + '\n';

@@ -60,6 +60,28 @@ TEST_CASE("a baked pack is whole", "[pack]") {
   }
 }
 
+TEST_CASE("a report belongs to the tiles of its pack", "[pack]") {
+  const std::vector<SampleMap> samples{sample("color", Role::color, Depth::u8, 3)};
+  for (const bool sequential : {false, true}) {
+    BakeOptions options = small_options();
+    if (sequential) {
+      options.set = TileChoice::sequential;
+      options.layout = LayoutKind::array;
+      options.mapping = MappingKind::index;
+    }
+    const BakedPack made = baked(samples, options);
+    CHECK(made.sources.tiles == made.pack.tiles);
+    CHECK(made.report.tiles.size() == static_cast<std::size_t>(tile_count(made.pack.tiles)));
+    REQUIRE(made.pack.synthesis);
+    CHECK(*made.pack.synthesis == made.report.figures);
+    CHECK(pack_json(described(made.pack)) == pack_json(described(bake(samples, options))));
+    // The sources say where the packed texels come from.
+    const std::vector<Image> tiles =
+        tiles_at_level(made.pack.maps[0].levels[0], made.pack.layout, made.pack.tile_size, 0);
+    CHECK(tiles == assembled(made.sources, samples).maps[0].tiles);
+  }
+}
+
 TEST_CASE("threads do not change a pack, the seed does", "[pack]") {
   const std::vector<SampleMap> samples{sample("color", Role::color, Depth::u8, 3)};
   BakeOptions options = small_options();

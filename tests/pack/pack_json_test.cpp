@@ -147,6 +147,37 @@ TEST_CASE("fields that contradict each other are refused", "[pack]") {
   CHECK_FALSE(changed("/version", 2));
 }
 
+TEST_CASE("figures of the synthesis are optional, and all or none", "[pack]") {
+  Pack pack = test::noise_pack();
+  CHECK(pack_json(described(pack)).find("synthesis") == std::string::npos);
+  SetFigures figures;
+  double next = 0.0625;
+  for (const SetFigureField& field : set_figure_fields) figures.*field.value = next += 0.03125;
+  pack.synthesis = figures;
+  const std::string text = pack_json(described(pack));
+  const PackDescription again = parsed_pack_json(text, "pack.json");
+  REQUIRE(again.pack.synthesis);
+  CHECK(*again.pack.synthesis == figures);
+  CHECK(pack_json(again) == text);
+
+  const json good = json::parse(text);
+  REQUIRE(good["synthesis"].size() == set_figure_fields.size());
+  for (const auto& [name, value] : good["synthesis"].items()) {
+    INFO(name);
+    for (const json& wrong : {json(nullptr), json(true), json("1"), json(-0.5), json(1e300), json::array()}) {
+      json changed = good;
+      changed["synthesis"][name] = wrong;
+      CHECK_FALSE(accepted(changed));
+    }
+    json without = good;
+    without["synthesis"].erase(name);
+    CHECK_FALSE(accepted(without));
+  }
+  json extra = good;
+  extra["synthesis"]["extra"] = 1;
+  CHECK_FALSE(accepted(extra));
+}
+
 TEST_CASE("sizes that multiply past the limits are refused before any memory is taken", "[pack]") {
   json huge = json::parse(pack_json(described(test::noise_pack())));
   huge["tile_size"] = {16384, 16384};

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/period.h"
+
+namespace tilepack {
+
+/// What a sample is like, as far as it decides whether tiles can be made of it and which options suit it.
+struct SampleNature {
+  Periodicity periods;
+  /// Share of the variance that is between squares of one tile's side: near 0 where every part looks alike, 1
+  /// where brightness or hue changes over the sample and not within a tile. 0 if fewer than 4 squares fit.
+  double drift = 0;
+  /// Share of the variance of brightness that two groups of texels explain [Otsu79]: 0.64 for a bell curve,
+  /// 1 for ink on paper.
+  double two_tone = 0;
+  double ink = 0; ///< share of texels in the smaller of the two groups
+};
+
+/// `image` holds the maps of `samples`. Deterministic; costs about as much as reading the sample.
+SampleNature sample_nature(std::span<const SampleMap> samples, const FeatureImage& image, Size tile);
+
+} // namespace tilepack
