@@ -62,9 +62,47 @@ std::string escaped(const std::string& path) {
   return text;
 }
 
+// Only what could be better: an artist wants to know whether to look closer.
+std::string verdict_text(const BakeFacts& facts) {
+  const SetFigures& f = facts.report.figures;
+  const BakeVerdict verdict = bake_verdict(facts);
+  std::string text =
+      fmt::format("  {:<9} {}: {:.0f} % of the sample shown, as varied as {:.1f} tiles; cuts {:.1f}, "
+                  "95 % below {:.1f}, sample {:.1f}; borders {:.1f}\n",
+                  "quality", name_of(verdict.grade), f.coverage * 100, f.distinct_tiles, f.cut_mean,
+                  f.cut_p95, f.sample_step, f.border_mean);
+  for (const BakeRemark& remark : verdict.remarks)
+    if (remark.grade != Grade::good) text += fmt::format("  {:<9} {}\n", name_of(remark.grade), remark.text);
+  return text;
+}
+
+nlohmann::ordered_json synthesis_json(const BakeFacts& facts) {
+  nlohmann::ordered_json json;
+  for (const SetFigureField& field : set_figure_fields)
+    json[std::string(field.name)] = facts.report.figures.*field.value;
+  json["border_step"] = facts.seams.seam;
+  json["periods"] = {facts.nature.periods.x.length, facts.nature.periods.y.length};
+  json["drift"] = facts.nature.drift;
+  json["two_tone"] = facts.nature.two_tone;
+  const Landmark& mark = facts.report.landmark;
+  json["landmark"] = {
+      {"at", {mark.centre.x, mark.centre.y}}, {"deviation", mark.deviation}, {"shown", mark.shown}};
+  return json;
+}
+
+nlohmann::ordered_json verdict_json(const BakeFacts& facts) {
+  const BakeVerdict verdict = bake_verdict(facts);
+  nlohmann::ordered_json json;
+  json["grade"] = name_of(verdict.grade);
+  json["remarks"] = nlohmann::ordered_json::array();
+  for (const BakeRemark& remark : verdict.remarks)
+    json["remarks"].push_back({{"grade", name_of(remark.grade)}, {"text", remark.text}});
+  return json;
+}
+
 } // namespace
 
-std::string bake_report_text(const PackDescription& made, const std::string& folder) {
+std::string bake_report_text(const PackDescription& made, const std::string& folder, const BakeFacts* facts) {
   const Pack& pack = made.pack;
   std::string text =
       fmt::format("{}: {} tiles of {} x {} texels, {}, {} layout\n", folder, tile_count(pack.tiles),
@@ -88,10 +126,10 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
                               "the corners of all tiles agree already, or don't follow from edge colors");
   text += fmt::format("  {:<9} {}, {} x {} tiles\n", "mapping", name_of(pack.mapping.kind),
                       pack.mapping.size.width, pack.mapping.size.height);
-  return text;
+  return facts ? text + verdict_text(*facts) : text;
 }
 
-std::string bake_report_json(const PackDescription& made, const std::string& folder) {
+std::string bake_report_json(const PackDescription& made, const std::string& folder, const BakeFacts* facts) {
   const Pack& pack = made.pack;
   nlohmann::ordered_json json;
   json["pack"] = folder;
@@ -125,7 +163,37 @@ std::string bake_report_json(const PackDescription& made, const std::string& fol
   }
   json["files"] = made.all_files();
   json["files"].push_back("pack.json");
+  if (facts) {
+    json["synthesis"] = synthesis_json(*facts);
+    json["verdict"] = verdict_json(*facts);
+  }
   return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+Progress StageClock::around(Progress onward) {
+  return [this, onward = std::move(onward)](std::string_view stage, double done) {
+    begin(stage);
+    report(onward, stage, done);
+  };
+}
+
+void StageClock::begin(std::string_view stage) {
+  const auto now = std::chrono::steady_clock::now();
+  if (current < stages.size()) stages[current].share += std::chrono::duration<double>(now - since).count();
+  since = now;
+  current = 0;
+  while (current < stages.size() && stages[current].stage != stage) ++current;
+  if (current == stages.size()) stages.push_back({std::string(stage), 0.0});
+}
+
+std::vector<StageShare> StageClock::shares() {
+  begin(stages.empty() ? "reading" : stages[current].stage); // counts what has passed
+  double total = 0.0;
+  for (const StageShare& s : stages) total += s.share;
+  std::vector<StageShare> result;
+  for (const StageShare& s : stages)
+    if (s.share >= 0.01 * total && total > 0) result.push_back({s.stage, s.share / total});
+  return result;
 }
 
 std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs) {

@@ -5,10 +5,12 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/error/nearest_name.h"
+#include "tilepack/image/staged_file.h"
 #include "tilepack/pack/bake.h"
 #include "tilepack/pack/bake_fields.h"
 #include "tilepack/pack/pack_write.h"
 #include "tilepack/pack/preset.h"
+#include "tilepack/verify/bake_page.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,12 +21,15 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace tilepack::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct BakeArguments {
   std::string sample;
@@ -34,6 +39,7 @@ struct BakeArguments {
   bool list_presets = false;
   std::string encoding;
   std::string depfile;
+  std::string report;
   std::string report_format = "text";
   int jobs = 0;
   std::map<std::string, std::string> fields; // bake field → what the command line says
@@ -114,6 +120,14 @@ private:
   std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
 };
 
+// Refuses early what can't be written. A report inside the pack's folder has to wait for the folder.
+void check_report(const BakeArguments& arguments) {
+  if (arguments.report.empty()) return;
+  const fs::path folder = fs::absolute(arguments.report).parent_path().lexically_normal();
+  if (folder != (fs::absolute(arguments.folder) / "").lexically_normal().parent_path())
+    const StagedFile probe{arguments.report};
+}
+
 int run_bake(const BakeArguments& arguments, Console& console) {
   if (arguments.list_presets) {
     console.print(arguments.report_format == "json" ? listed_presets_json() : listed_presets());
@@ -130,21 +144,32 @@ int run_bake(const BakeArguments& arguments, Console& console) {
 
   Stopwatch watch;
   check_pack_folder(arguments.folder); // before minutes are spent on what can't be stored
-  const Progress progress = console.progress();
+  check_report(arguments);
+  StageClock clock;
+  const Progress progress = clock.around(console.progress());
   report(progress, "reading", 0.0);
   const std::vector<SampleMap> samples = read_samples(files, asked);
   const double read_seconds = watch.lap();
-  const Pack pack = bake(samples, options, progress);
+  const BakedPack made = baked(samples, options, progress);
+  report(progress, "figures", 0.5);
+  BakeStory story{fs::path(arguments.sample).filename().string(), bake_facts(made, samples), {}};
   const double bake_seconds = watch.lap();
   std::optional<Depfile> depfile;
   if (!arguments.depfile.empty()) depfile.emplace(arguments.depfile, dependencies(arguments, files));
-  write_pack(pack, arguments.folder, progress);
+  write_pack(made.pack, arguments.folder, progress);
   if (depfile) depfile->commit();
   const double write_seconds = watch.lap();
+  if (!arguments.report.empty()) {
+    story.stages = clock.shares();
+    StagedFile page(arguments.report);
+    page.write(0, std::as_bytes(std::span<const char>(bake_page(story, made, samples))));
+    page.commit();
+  }
 
-  const PackDescription made = described(pack);
-  console.print(arguments.report_format == "json" ? bake_report_json(made, arguments.folder)
-                                                  : bake_report_text(made, arguments.folder));
+  const PackDescription description = described(made.pack);
+  console.print(arguments.report_format == "json"
+                    ? bake_report_json(description, arguments.folder, &story.facts)
+                    : bake_report_text(description, arguments.folder, &story.facts));
   console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", read_seconds, bake_seconds,
                            write_seconds));
   return 0;
@@ -187,6 +212,9 @@ Action declare_bake(CLI::App& app) {
                  "of the summary or the list of presets on stdout")
       ->check(CLI::IsMember({"text", "json"}).description(""))
       ->type_name("text|json");
+  app.add_option("--report", arguments->report,
+                 "also write a page: tiles, cuts and sources drawn, figures, what to change")
+      ->type_name("FILE.html");
   add_jobs_option(app, arguments->jobs);
   return [arguments](Console& console) { return run_bake(*arguments, console); };
 }
@@ -197,6 +225,7 @@ Verb bake_verb() {
   return {"bake", "make a tile pack from a texture sample or a set of material maps",
           "  tilepack bake gravel.png -o gravel.pack --tile-size 128 --colors 2\n"
           "  tilepack bake rock.png -o rock.pack --map normal=rock_normal.png --preset terrain --seed 7\n"
+          "  tilepack bake gravel.png -o gravel.pack --report gravel.html\n"
           "  tilepack bake materials/rock -o rock.pack\n",
           declare_bake};
 }

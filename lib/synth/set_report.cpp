@@ -2,12 +2,15 @@
 
 #include "tilepack/synth/source_canvas.h"
 #include "tilepack/synth/statistics.h"
+#include "tilepack/tileset/border_colors.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace tilepack {
 namespace {
@@ -122,6 +125,47 @@ double coverage_of(const std::vector<int>& uses, Size sample) {
       shown += 4 * used >= texels;
     }
   return static_cast<double>(shown) / cells;
+}
+
+// What tiles show at one place of a border: sources, each with the number of tiles.
+using Shown = std::vector<std::pair<SourceTexel, int>>;
+
+void count(Shown& shown, SourceTexel from) {
+  for (auto& [known, tiles] : shown)
+    if (known == from) {
+      ++tiles;
+      return;
+    }
+  shown.emplace_back(from, 1);
+}
+
+// Tiles meet if the colors of a border agree, so all pairs of what is shown on its two sides are met. Without
+// corner colors these are many only round corners, for the rest of a border is the same in all tiles.
+double mean_across_borders(const FeatureImage& image, const SourceMap& sources) {
+  const int w = sources.tile_size.width;
+  const int h = sources.tile_size.height;
+  const std::vector<BorderColors> colors = border_colors(sources.tiles);
+  double sum = 0.0;
+  double pairs = 0.0;
+  for (const bool south : {false, true}) {
+    std::map<std::pair<int, int>, std::pair<Shown, Shown>> met; // (color, place) → this side, the other
+    for (std::size_t t = 0; t < sources.texels.size(); ++t)
+      for (int i = 0; i < (south ? w : h); ++i) {
+        const std::size_t last = south ? at(i, h - 1, w) : at(w - 1, i, w);
+        const std::size_t first = south ? at(i, 0, w) : at(0, i, w);
+        count(met[{south ? colors[t].south : colors[t].east, i}].first, sources.texels[t][last]);
+        count(met[{south ? colors[t].north : colors[t].west, i}].second, sources.texels[t][first]);
+      }
+    for (const auto& [place, sides] : met)
+      for (const auto& [p, p_tiles] : sides.first)
+        for (const auto& [q, q_tiles] : sides.second) {
+          const double meetings = static_cast<double>(p_tiles) * q_tiles;
+          sum +=
+              meetings * visibility_of(seam_cost(image, p, q, south ? 0 : 1, south ? 1 : 0), image.channels);
+          pairs += meetings;
+        }
+  }
+  return pairs > 0 ? sum / pairs : 0.0;
 }
 
 // In blocks of 4 x 4 texels, about what SampleStatistics resolves.
@@ -284,22 +328,23 @@ SetReport set_report(const FeatureImage& image, const SourceMap& sources) {
   std::vector<double> all;
   for (const auto& some : visibilities) all.insert(all.end(), some.begin(), some.end());
   SetFigures& f = report.figures;
-  const double count = static_cast<double>(tiles);
-  f.cut_length = rounded(static_cast<double>(all.size()) / count);
+  const double tile_number = static_cast<double>(tiles);
+  f.cut_length = rounded(static_cast<double>(all.size()) / tile_number);
   f.cut_mean = rounded(mean_of(all));
   f.cut_p95 = rounded(p95_of(std::move(all)));
+  f.border_mean = rounded(mean_across_borders(image, sources));
   f.sample_step = rounded(step_of_sample(image));
   for (const TileFigures& tile : report.tiles) {
-    f.in_pieces += tile.in_pieces / count;
-    f.fresh += tile.fresh / count;
+    f.in_pieces += tile.in_pieces / tile_number;
+    f.fresh += tile.fresh / tile_number;
   }
   f.in_pieces = rounded(f.in_pieces);
   f.fresh = rounded(f.fresh);
   f.shown_often = rounded(static_cast<double>(std::accumulate(often.begin(), often.end(), std::int64_t{0})) /
-                          (tile_texels * count));
+                          (tile_texels * tile_number));
   double squares = 0.0;
   for (const int n : uses) squares += static_cast<double>(n) * n;
-  f.distinct_tiles = rounded(tile_texels * count * count / squares);
+  f.distinct_tiles = rounded(tile_texels * tile_number * tile_number / squares);
   f.coverage = rounded(coverage_of(uses, sample));
   f.histogram_distance = rounded(distance_of(image, uses));
   report.landmark = landmark_of(image, showing, tiles);

@@ -129,6 +129,10 @@ std::string color_text(const Paint& paint) {
 
 } // namespace
 
+std::string png_data_uri(const Image& image) {
+  return "data:image/png;base64," + base64(png_bytes(image));
+}
+
 Image rasterised(const Drawing& drawing) {
   Image image = drawing.background;
   for (const DrawingShape& shape : drawing.shapes) fill(image, shape);
@@ -141,8 +145,8 @@ std::string svg(const Drawing& drawing) {
   const int height = drawing.background.height();
   std::string text = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
                                  "viewBox=\"0 0 {0} {1}\">\n<image width=\"{0}\" height=\"{1}\" "
-                                 "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{2}\"/>\n",
-                                 width, height, base64(png_bytes(drawing.background)));
+                                 "style=\"image-rendering:pixelated\" href=\"{2}\"/>\n",
+                                 width, height, png_data_uri(drawing.background));
   for (const DrawingShape& shape : drawing.shapes) {
     text += "<polygon points=\"";
     for (std::size_t i = 0; i < shape.points.size(); ++i)

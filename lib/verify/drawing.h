@@ -50,4 +50,7 @@ Image rasterised(const Drawing& drawing);
 /// The same as an SVG document that stands for itself: the background as PNG within.
 std::string svg(const Drawing& drawing);
 
+/// `image` as the PNG text that HTML and SVG take in place of an address.
+std::string png_data_uri(const Image& image);
+
 } // namespace tilepack

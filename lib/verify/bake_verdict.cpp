@@ -1,0 +1,237 @@
+#include "tilepack/verify/bake_verdict.h"
+
+#include "tilepack/synth/feature_image.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tilepack {
+namespace {
+
+using Remarks = std::vector<BakeRemark>;
+
+std::string shown(Size size) {
+  return size.width == size.height ? fmt::format("{}", size.width)
+                                   : fmt::format("{}x{}", size.width, size.height);
+}
+
+double percent(double share) {
+  return share * 100;
+}
+
+void add(Remarks& remarks, Grade grade, std::string text) {
+  BakeRemark& remark = remarks.emplace_back();
+  remark.grade = grade;
+  remark.text = std::move(text);
+}
+
+// Marks that mean something alone: two tones, little ink, cuts that can't all run through the paper.
+bool is_writing(const BakeFacts& facts) {
+  const SampleNature& n = facts.nature;
+  const bool along_one_axis = (n.periods.x.length > 0) != (n.periods.y.length > 0);
+  return n.two_tone > 0.9 && n.ink < 0.3 && along_one_axis;
+}
+
+// How far the side is from whole periods, in texels.
+double misfit(const Period& period, int side) {
+  return std::abs(side - std::max(1.0, std::round(side / period.length)) * period.length);
+}
+
+void judge_periods(const BakeFacts& facts, Remarks& remarks) {
+  const Periodicity& periods = facts.nature.periods;
+  const Size tile = facts.synth.tile_size;
+  const TileSizeAdvice advice = fitting_tile_size(periods, tile, facts.sample);
+  const auto judge = [&](const Period& period, int side, int fitting, const char* axis) {
+    if (period.length <= 0) return;
+    const double off = misfit(period, side);
+    if (off <= std::max(0.75, 0.02 * period.length)) {
+      add(remarks, Grade::good,
+          fmt::format("The sample repeats every {:.2f} texels along {}, and a tile "
+                      "holds {:.0f} of them.",
+                      period.length, axis, std::round(side / period.length)));
+      return;
+    }
+    const Grade grade = off > 0.1 * period.length ? Grade::poor : Grade::fair;
+    const std::string found = fmt::format(
+        "The sample repeats every {:.2f} texels along {}, and {} texels are {:.2f} of them: what runs on in "
+        "the sample is cut off at some borders.",
+        period.length, axis, side, side / period.length);
+    if (fitting != side && misfit(period, fitting) < off)
+      add(remarks, grade,
+          fmt::format("{} Bake with --tile-size {}, which --tile-size auto finds.", found,
+                      shown(advice.size)));
+    else
+      add(remarks, grade,
+          fmt::format("{} No tile that fits holds whole repeats; a larger sample, or one "
+                      "scaled so that repeats are whole texels, would help.",
+                      found));
+  };
+  judge(periods.x, tile.width, advice.size.width, "x");
+  judge(periods.y, tile.height, advice.size.height, "y");
+}
+
+// What hides a cut is how much neighbouring texels differ anyway.
+void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
+  const SetFigures& f = facts.report.figures;
+  if (f.cut_length == 0) {
+    add(remarks, Grade::good, "No tile has a cut inside.");
+    return;
+  }
+  const double mean = f.cut_mean / std::max(f.sample_step, 0.5);
+  const double worst = f.cut_p95 / std::max(f.sample_step, 0.5);
+  const std::string found = fmt::format(
+      "Across cuts material differs by {:.1f} on average and by up to {:.1f} along 19 of 20 texels of cut; "
+      "neighbouring texels of the sample differ by {:.1f}",
+      f.cut_mean, f.cut_p95, f.sample_step);
+  if (mean <= 1.25 && worst <= 3.5) {
+    add(remarks, Grade::good, found + ", so cuts hide in the texture.");
+    return;
+  }
+  std::string options;
+  const auto suggest = [&](const std::string& option) { options += (options.empty() ? "" : ", ") + option; };
+  const SynthOptions& o = facts.synth;
+  if (o.interior == Interior::quilt) suggest("--interior patch");
+  if (o.effort < 9) suggest("--effort 9");
+  if (2 * o.tile_size.width <= facts.sample.width / 2 && 2 * o.tile_size.height <= facts.sample.height / 2)
+    suggest(fmt::format("--tile-size {} (fewer cuts for the area)",
+                        shown({2 * o.tile_size.width, 2 * o.tile_size.height})));
+  suggest("another --seed");
+  const int colors =
+      o.coloring == Coloring::corner ? o.colors.corner : std::max(o.colors.horizontal, o.colors.vertical);
+  if (colors > 2) suggest("--colors 2 (fewer parts that must fit one another)");
+  add(remarks, mean > 2 || worst > 6 ? Grade::poor : Grade::fair,
+      fmt::format("{}: some can be seen. Try {}.", found, options));
+}
+
+// Steps alone don't tell: a set has few kinds of borders, and where one runs along a joint of bricks its step
+// is large and right.
+void judge_borders(const BakeFacts& facts, Remarks& remarks) {
+  const SetFigures& f = facts.report.figures;
+  const double share = f.border_mean / std::max(f.sample_step, 0.5);
+  if (share <= 0.1) {
+    add(remarks, Grade::good, "Across borders tiles show neighbours of the sample: no border can be told.");
+    return;
+  }
+  add(remarks, share > 0.4 ? Grade::poor : Grade::fair,
+      fmt::format(
+          "Across borders material differs by {:.1f} on average (neighbouring texels of the sample by "
+          "{:.1f}). Try --coloring corner, whose corners agree{}.",
+          f.border_mean, f.sample_step,
+          facts.synth.interior == Interior::quilt ? ", or --interior patch" : ""));
+}
+
+void judge_sample(const BakeFacts& facts, Remarks& remarks) {
+  const SampleNature& n = facts.nature;
+  const Size tile = facts.synth.tile_size;
+  const double tiles_in_sample = static_cast<double>(facts.sample.width) / tile.width *
+                                 static_cast<double>(facts.sample.height) / tile.height;
+  if (tiles_in_sample < 6) {
+    const int smaller = std::min(facts.sample.width, facts.sample.height) / 4 / 8 * 8;
+    add(remarks, tiles_in_sample < 2.5 ? Grade::poor : Grade::fair,
+        fmt::format("The sample holds {:.1f} tiles, too little for every tile to have an inside of its own. "
+                    "Use a larger sample{}.",
+                    tiles_in_sample,
+                    smaller >= 16 && smaller < std::min(tile.width, tile.height)
+                        ? fmt::format(", or --tile-size {}", smaller)
+                        : ""));
+  }
+  if (n.drift > 0.25)
+    add(remarks, n.drift > 0.5 ? Grade::poor : Grade::fair,
+        fmt::format(
+            "{:.0f} % of the sample's variance lies between areas of a tile's size: brightness or hue "
+            "changes on a larger scale than tiles, which shows as patches or is lost. Flatten the sample "
+            "first (take slow shading out), or use a larger --tile-size.",
+            percent(n.drift)));
+  if (is_writing(facts))
+    add(remarks, Grade::poor,
+        "The sample looks like writing or drawing: two tones in lines. Tiles keep what neighbours "
+        "look like, not what marks mean, and cuts must run through marks; no option changes "
+        "that. Store it as a texture of its own.");
+}
+
+void judge_variety(const BakeFacts& facts, Remarks& remarks) {
+  const SetFigures& f = facts.report.figures;
+  const SynthOptions& o = facts.synth;
+  const int colors =
+      o.coloring == Coloring::corner ? o.colors.corner : std::min(o.colors.horizontal, o.colors.vertical);
+  const bool more_colors = colors < (o.coloring == Coloring::corner ? 4 : 8);
+  const std::string way_out = more_colors
+                                  ? fmt::format(" --colors {} shows more, in {} tiles.", colors + 1,
+                                                (colors + 1) * (colors + 1) * (colors + 1) * (colors + 1))
+                                  : "";
+  const std::string found = fmt::format(
+      "The tiles show {:.0f} % of the sample and are as varied as {:.1f} tiles without a texel in "
+      "common, of {}",
+      percent(f.coverage), f.distinct_tiles, facts.tiles);
+  const double possible = std::min(static_cast<double>(facts.tiles),
+                                   static_cast<double>(facts.sample.width) * facts.sample.height /
+                                       o.tile_size.width / o.tile_size.height);
+  if (f.coverage < 0.5 && f.distinct_tiles < 0.5 * possible)
+    add(remarks, f.distinct_tiles < 0.3 * possible ? Grade::poor : Grade::fair,
+        found + ": parts come back often, and others are never seen." + way_out);
+  else
+    add(remarks, Grade::good, found + ".");
+  if (f.shown_often > 0.35)
+    add(remarks, Grade::fair,
+        fmt::format("{:.0f} % of the tiles' area shows what half of all tiles show.{}",
+                    percent(f.shown_often), way_out));
+  if (f.histogram_distance > 0.06)
+    add(remarks, f.histogram_distance > 0.12 ? Grade::poor : Grade::fair,
+        fmt::format(
+            "Values are spread otherwise than in the sample, by {:.1f} % of texels: some brightness or "
+            "kind of detail is shown too often. Try another --seed or more --colors.",
+            percent(f.histogram_distance)));
+}
+
+void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
+  const Landmark& mark = facts.report.landmark;
+  if (mark.deviation < 3.5 || mark.shown < 0.2) return;
+  add(remarks, mark.shown >= 0.4 && mark.deviation >= 4.5 ? Grade::poor : Grade::fair,
+      fmt::format(
+          "The spot round ({}, {}) of the sample is unlike the rest ({:.1f} standard deviations), and "
+          "{:.0f} % of the tiles show it: the eye may find it again and again. Try another --seed, or "
+          "paint it over in the sample.",
+          mark.centre.x, mark.centre.y, mark.deviation, percent(mark.shown)));
+}
+
+} // namespace
+
+BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) {
+  constexpr int worst_borders = 3;
+  return {made.report,
+          seam_figures(made.pack, 0, 0, worst_borders),
+          sample_nature(samples, feature_image(samples), made.synth.tile_size),
+          made.synth,
+          samples[0].image.size(),
+          tile_count(made.pack.tiles)};
+}
+
+std::string_view name_of(Grade grade) {
+  switch (grade) {
+  case Grade::good:
+    return "good";
+  case Grade::fair:
+    return "fair";
+  case Grade::poor:
+    break;
+  }
+  return "poor";
+}
+
+BakeVerdict bake_verdict(const BakeFacts& facts) {
+  BakeVerdict verdict;
+  judge_sample(facts, verdict.remarks);
+  judge_periods(facts, verdict.remarks);
+  judge_cuts(facts, verdict.remarks);
+  judge_borders(facts, verdict.remarks);
+  judge_variety(facts, verdict.remarks);
+  judge_landmark(facts, verdict.remarks);
+  std::stable_sort(verdict.remarks.begin(), verdict.remarks.end(),
+                   [](const BakeRemark& a, const BakeRemark& b) { return a.grade > b.grade; });
+  verdict.grade = verdict.remarks.front().grade;
+  return verdict;
+}
+
+} // namespace tilepack
