@@ -84,6 +84,7 @@ nlohmann::ordered_json synthesis_json(const BakeFacts& facts) {
   json["periods"] = {facts.nature.periods.x.length, facts.nature.periods.y.length};
   json["drift"] = facts.nature.drift;
   json["two_tone"] = facts.nature.two_tone;
+  json["ink"] = facts.nature.ink;
   const Landmark& mark = facts.report.landmark;
   json["landmark"] = {
       {"at", {mark.centre.x, mark.centre.y}}, {"deviation", mark.deviation}, {"shown", mark.shown}};

@@ -27,11 +27,21 @@ void add(Remarks& remarks, Grade grade, std::string text) {
   remark.text = std::move(text);
 }
 
-// Marks that mean something alone: two tones, little ink, cuts that can't all run through the paper.
+// Marks that mean something alone: two tones, little ink, in lines. A scanned page has two_tone 0.83; of 22
+// photos of natural and built surfaces none has more than 0.71.
 bool is_writing(const BakeFacts& facts) {
   const SampleNature& n = facts.nature;
   const bool along_one_axis = (n.periods.x.length > 0) != (n.periods.y.length > 0);
-  return n.two_tone > 0.9 && n.ink < 0.3 && along_one_axis;
+  return n.two_tone > 0.78 && n.ink < 0.35 && along_one_axis;
+}
+
+// Visibility of cuts against the sample's own steps. Of 22 photos, tiles of 128 texels and --effort 0: median
+// 1.2 on average and 2.9 for the dearest twentieth; those whose cuts can be seen have 1.5 and 4 or more.
+constexpr double dear_mean = 1.4;
+constexpr double dear_p95 = 4.0;
+
+double mean_cut(const BakeFacts& facts) {
+  return facts.report.figures.cut_mean / std::max(facts.report.figures.sample_step, 0.5);
 }
 
 // How far the side is from whole periods, in texels.
@@ -53,7 +63,7 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
                       period.length, axis, std::round(side / period.length)));
       return;
     }
-    const Grade grade = off > 0.1 * period.length ? Grade::poor : Grade::fair;
+    const Grade grade = off > 0.1 * period.length && mean_cut(facts) > dear_mean ? Grade::poor : Grade::fair;
     const std::string found = fmt::format(
         "The sample repeats every {:.2f} texels along {}, and {} texels are {:.2f} of them: what runs on in "
         "the sample is cut off at some borders.",
@@ -79,13 +89,13 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
     add(remarks, Grade::good, "No tile has a cut inside.");
     return;
   }
-  const double mean = f.cut_mean / std::max(f.sample_step, 0.5);
+  const double mean = mean_cut(facts);
   const double worst = f.cut_p95 / std::max(f.sample_step, 0.5);
   const std::string found = fmt::format(
       "Across cuts material differs by {:.1f} on average and by up to {:.1f} along 19 of 20 texels of cut; "
       "neighbouring texels of the sample differ by {:.1f}",
       f.cut_mean, f.cut_p95, f.sample_step);
-  if (mean <= 1.25 && worst <= 3.5) {
+  if (mean <= dear_mean && worst <= dear_p95) {
     add(remarks, Grade::good, found + ", so cuts hide in the texture.");
     return;
   }

