@@ -124,12 +124,14 @@ void judge_borders(const BakeFacts& facts, Remarks& remarks) {
     add(remarks, Grade::good, "Across borders tiles show neighbours of the sample: no border can be told.");
     return;
   }
+  const std::string way_out = facts.synth.coloring == Coloring::edge
+                                  ? "--coloring corner, whose corners agree"
+                                  : "--guard 4, or another --seed";
   add(remarks, share > 0.4 ? Grade::poor : Grade::fair,
       fmt::format(
           "Across borders material differs by {:.1f} on average (neighbouring texels of the sample by "
-          "{:.1f}). Try --coloring corner, whose corners agree{}.",
-          f.border_mean, f.sample_step,
-          facts.synth.interior == Interior::quilt ? ", or --interior patch" : ""));
+          "{:.1f}). Try {}.",
+          f.border_mean, f.sample_step, way_out));
 }
 
 void judge_sample(const BakeFacts& facts, Remarks& remarks) {
