@@ -200,8 +200,7 @@ class Validate(CommandCase):
             self.refused("validate", name, code=2)
         self.refused("validate", code=1, saying="PACK")
         self.refused("validate", "pack", "--format", "xml", code=1)
-        # An image in place of a pack.json is read as one, and is no JSON.
-        self.assertIn("TP101", self.run_tilepack("validate", "pack/color_0.png", code=5).stdout)
+        self.refused("validate", "pack/color_0.png", code=2, saying="is no pack")
 
     def test_rules_are_listed(self):
         text = self.run_tilepack("validate", "--list-rules").stdout
