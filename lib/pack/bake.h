@@ -19,6 +19,7 @@ enum class TileChoice {
 
 /// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
 /// keys of a preset: see pack/bake_fields.h, which holds their names, ranges and help.
+/// The plain struct asks for edge colors; bake_options({}) is what `tilepack bake` starts from, corner colors.
 struct BakeOptions : PackingOptions {
   SynthOptions synth;
   bool fit_tile_size = false; ///< tile sides become whole periods of the sample, near synth.tile_size

@@ -1,5 +1,5 @@
 #include "image/foreign_file.h"
-#include "image/scratch_folder.h"
+#include "scratch_folder.h"
 
 #include "tilepack/image/image_file.h"
 

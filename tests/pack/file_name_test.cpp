@@ -1,4 +1,5 @@
 #include "noise_pack.h"
+#include "scratch_folder.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/pack/file_name.h"
@@ -31,7 +32,7 @@ TEST_CASE("names of maps are safe on every file system", "[pack]") {
 }
 
 TEST_CASE("only plain files inside the folder are opened", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   const fs::path pack = temporary / "pack";
   fs::create_directories(pack / "sub");
   std::ofstream(temporary / "outside.png") << "x";

@@ -1,3 +1,4 @@
+#include "scratch_folder.h"
 // Packs with a changed pack.json: whatever the change, reading either refuses it as invalid or unreadable, or
 // gives a pack that can be sampled anywhere. Under the sanitizers this finds reads out of bounds.
 
@@ -136,7 +137,7 @@ void sample_everywhere(const Pack& pack) {
 } // namespace
 
 TEST_CASE("no change of a pack.json gets past the reader and breaks the sampler", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   int refused = 0;
   int accepted = 0;
   for (const Pack& pack : packs_of_every_kind()) {

@@ -53,26 +53,4 @@ inline Pack noise_pack(MappingKind mapping = MappingKind::permutation, Depth hei
   return pack;
 }
 
-// A folder of its own, removed at the end.
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "tilepack_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code unused;
-    std::filesystem::remove_all(folder, unused);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return folder / name; }
-  const std::filesystem::path& path() const { return folder; }
-
-private:
-  std::filesystem::path folder;
-};
-
 } // namespace tilepack::test

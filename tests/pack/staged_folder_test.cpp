@@ -1,4 +1,5 @@
 #include "noise_pack.h"
+#include "scratch_folder.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/pack/staged_folder.h"
@@ -92,7 +93,7 @@ enum class Target { beside_a_file, missing, beside_a_folder, current };
 /// Kills a writer at every step of its commit and clean-up. `at_once`: the folder holds the old or the new
 /// files straight away; otherwise once the next writer came along.
 void kill_everywhere(Target target, bool at_once) {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   const fs::path folder = temporary / "p";
   Contents before, after;
   for (const std::string& name : new_files) after[name] = "new " + name;
@@ -112,10 +113,10 @@ void kill_everywhere(Target target, bool at_once) {
   bool killed = true;
   for (int n = 1; killed; n += 2) { // on entering; leaving one and entering the next is the same
 
-    fs::remove_all(temporary.path());
+    fs::remove_all(temporary.path);
     if (!before.empty()) fs::create_directories(folder / "drafts");
     if (target != Target::beside_a_folder) fs::remove(folder / "drafts");
-    fs::create_directories(temporary.path());
+    fs::create_directories(temporary.path);
     for (const auto& [name, text] : before)
       if (text != "folder") put(folder / name, text);
     killed = killed_at(n, work);
@@ -128,7 +129,7 @@ void kill_everywhere(Target target, bool at_once) {
     if (found != before) REQUIRE(found == after);
     write_new(folder);
     REQUIRE(contents(folder) == after);
-    for (const auto& entry : fs::directory_iterator(temporary.path())) REQUIRE(entry.path() == folder);
+    for (const auto& entry : fs::directory_iterator(temporary.path)) REQUIRE(entry.path() == folder);
   }
   CHECK(kept > 1);
   CHECK(replaced > 3);
@@ -154,7 +155,7 @@ TEST_CASE("killed at any system call, a writer leaves the old files or the new o
 }
 
 TEST_CASE("the folder that takes a folder's place has its permissions, and links lead to it", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   fs::create_directories(temporary / "real" / "p");
   fs::create_directory_symlink("real/p", temporary / "link");
   fs::permissions(temporary / "real" / "p", fs::perms::owner_all | fs::perms::group_read);
@@ -163,11 +164,11 @@ TEST_CASE("the folder that takes a folder's place has its permissions, and links
   CHECK(fs::status(temporary / "real" / "p").permissions() == (fs::perms::owner_all | fs::perms::group_read));
   CHECK(contents(temporary / "link").size() == 3);
   write_new((temporary / "link").string() + "/");
-  CHECK(contents(temporary.path()).size() == 2 + 3); // real, p and its files; link counts as p
+  CHECK(contents(temporary.path).size() == 2 + 3); // real, p and its files; link counts as p
 }
 
 TEST_CASE("one writer at a time", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   const fs::path folder = temporary / "p";
   for (const bool exists : {false, true}) {
     if (exists) fs::create_directory(folder);
@@ -178,5 +179,5 @@ TEST_CASE("one writer at a time", "[pack]") {
     CHECK(contents(folder).at("pack.json") == "mine");
     fs::remove_all(folder);
   }
-  CHECK(contents(temporary.path()).empty());
+  CHECK(contents(temporary.path).empty());
 }

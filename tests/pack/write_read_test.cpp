@@ -1,4 +1,5 @@
 #include "noise_pack.h"
+#include "scratch_folder.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
@@ -52,7 +53,7 @@ std::string refusal(Function&& function, ErrorKind kind) {
 } // namespace
 
 TEST_CASE("a pack comes back as it was written, and is written again to the same bytes", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   for (const MappingKind mapping : {MappingKind::permutation, MappingKind::mix, MappingKind::index})
     for (const Depth depth : {Depth::u8, Depth::u16, Depth::f16, Depth::f32}) {
       const Pack pack = test::noise_pack(mapping, depth);
@@ -68,7 +69,7 @@ TEST_CASE("a pack comes back as it was written, and is written again to the same
 }
 
 TEST_CASE("an index map is stored in 8 bits, and in 16 for more than 256 tiles", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   for (const int tiles : {256, 257}) {
     TileSet set{{4, 4}, {1, 1, 0}, std::vector<EdgeTile>(static_cast<std::size_t>(tiles)), {}, 0};
     set.maps = {{"color", Role::color, Encoding::srgb, Depth::u8, {}}};
@@ -88,7 +89,7 @@ TEST_CASE("an index map is stored in 8 bits, and in 16 for more than 256 tiles",
 }
 
 TEST_CASE("the number of threads leaves no trace", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   const Pack pack = test::noise_pack();
   write_pack(pack, temporary / "many");
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -97,7 +98,7 @@ TEST_CASE("the number of threads leaves no trace", "[pack]") {
 }
 
 TEST_CASE("an older pack is replaced, and files of others stay", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   const fs::path folder = temporary / "p";
   write_pack(test::noise_pack(MappingKind::index, Depth::f16), folder);
   put(folder / "notes.txt", "mine");
@@ -111,7 +112,7 @@ TEST_CASE("an older pack is replaced, and files of others stay", "[pack]") {
 }
 
 TEST_CASE("folders with anything else in them are refused and left alone", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   const fs::path folder = temporary / "p";
   fs::create_directory(folder);
   const Pack pack = test::noise_pack();
@@ -140,7 +141,7 @@ TEST_CASE("folders with anything else in them are refused and left alone", "[pac
 }
 
 TEST_CASE("a file where the folder should be is refused", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   put(temporary / "p", "mine");
   CHECK_THAT(refusal([&] { write_pack(test::noise_pack(), temporary / "p"); }, ErrorKind::cannot_write),
              Contains("is no folder"));
@@ -149,21 +150,21 @@ TEST_CASE("a file where the folder should be is refused", "[pack]") {
 }
 
 TEST_CASE("a cancelled or failing write leaves nothing", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   struct Cancelled {};
   const Progress cancel = [](std::string_view, double done) {
     if (done > 0.1) throw Cancelled();
   };
   CHECK_THROWS_AS(write_pack(test::noise_pack(), temporary / "a" / "b" / "c", cancel), Cancelled);
-  CHECK(contents(temporary.path()).empty());
+  CHECK(contents(temporary.path).empty());
   write_pack(test::noise_pack(), temporary / "p");
-  const auto before = contents(temporary.path());
+  const auto before = contents(temporary.path);
   CHECK_THROWS_AS(write_pack(test::noise_pack(MappingKind::mix), temporary / "p", cancel), Cancelled);
-  CHECK(contents(temporary.path()) == before);
+  CHECK(contents(temporary.path) == before);
 }
 
 TEST_CASE("what a killed process left behind is no obstacle", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   fs::create_directories(temporary / "p" / ".tilepack-staging" / "retired");
   put(temporary / "p" / ".tilepack-staging" / "color_0.png", "half");
   write_pack(test::noise_pack(), temporary / "p");
@@ -171,7 +172,7 @@ TEST_CASE("what a killed process left behind is no obstacle", "[pack]") {
 }
 
 TEST_CASE("files that do not match pack.json are refused", "[pack]") {
-  const test::TemporaryFolder temporary;
+  const ScratchFolder temporary;
   const fs::path folder = temporary / "p";
   write_pack(test::noise_pack(MappingKind::index), folder);
   const auto read = [&] { read_pack(folder); };

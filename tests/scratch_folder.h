@@ -10,8 +10,10 @@ struct ScratchFolder {
   std::filesystem::path path;
 
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "tilepack-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+    // mkdtemp puts a name of its own in place of six X.
+    std::string name =
+        (std::filesystem::temp_directory_path() / "tilepack_test_").string() + std::string(6, 'X');
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
     path = name;
   }
   ~ScratchFolder() {
@@ -20,4 +22,6 @@ struct ScratchFolder {
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path / name; }
 };
