@@ -1,12 +1,7 @@
 #include "bake_report.h"
 
-#include "tilepack/error/error.h"
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <filesystem>
-#include <fstream>
 
 namespace tilepack::cli {
 namespace {
@@ -203,29 +198,6 @@ std::string depfile_text(const std::string& target, const std::vector<std::strin
   text += '\n';
   for (const std::string& input : inputs) text += fmt::format("\n{}:\n", escaped(input));
   return text;
-}
-
-Depfile::Depfile(const std::string& file, const std::string& text)
-    : final_name(file), staged_name(file + ".part") {
-  std::ofstream stream(staged_name, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (stream) return;
-  std::error_code unused;
-  std::filesystem::remove(staged_name, unused);
-  throw Error(ErrorKind::cannot_write, final_name, "the dependency file can't be written; check its folder");
-}
-
-void Depfile::commit() {
-  std::error_code fault;
-  std::filesystem::rename(staged_name, final_name, fault);
-  if (fault) throw Error(ErrorKind::cannot_write, final_name, fault.message());
-  staged_name.clear();
-}
-
-Depfile::~Depfile() {
-  std::error_code unused;
-  if (!staged_name.empty()) std::filesystem::remove(staged_name, unused);
 }
 
 } // namespace tilepack::cli

@@ -1,6 +1,7 @@
 #include "bench_lookups.h"
 
 #include "jobs.h"
+#include "output_file.h"
 
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/verify/bench.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 
@@ -51,23 +51,12 @@ int map_number(const Pack& pack, const std::string& name) {
   throw Error(ErrorKind::usage, "--map", fmt::format("the pack has no map '{}'; it has {}", name, names));
 }
 
-void write_page(const std::string& file, const std::string& page) {
-  const std::string beside = file + ".part";
-  std::ofstream out(beside, std::ios::binary);
-  out << page;
-  out.close();
-  std::error_code fault;
-  if (out) fs::rename(beside, file, fault);
-  if (out && !fault) return;
-  std::error_code ignored;
-  fs::remove(beside, ignored);
-  throw Error(ErrorKind::cannot_write, file, "can't be written; is its folder there and writable?");
-}
-
 } // namespace
 
 int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
   const JobLimit limit(a.jobs);
+  check_page_name({"--report", a.report});
+  if (!a.report.empty()) check_writable(a.report); // before minutes are spent
   const Pack pack = read_pack(a.pack);
   const int map = map_number(pack, a.map);
   const Progress progress = console.progress();
@@ -88,7 +77,7 @@ int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
     const ScratchFolder scratch;
     bench.stored = bench_stored_texture(pack, map, scratch.path, options, progress);
   }
-  if (!a.report.empty()) write_page(a.report, bench_page(bench));
+  if (!a.report.empty()) write_text_file(a.report, bench_page(bench));
   console.print(a.format == "json"  ? bench_json(bench)
                 : a.format == "csv" ? bench_csv(bench)
                                     : bench_text(bench));

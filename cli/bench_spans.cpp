@@ -1,5 +1,7 @@
 #include "bench_spans.h"
 
+#include "output_file.h"
+
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/scanline/view_render.h"
 #include "tilepack/verify/image_metrics.h"
@@ -10,8 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 
@@ -291,23 +291,6 @@ void measure_view(SpanBench& bench, const std::string& pack_name, bool quick, co
   }
 }
 
-// The report appears whole or not at all.
-void write_whole(const std::string& name, const std::string& text) {
-  const std::string partial = name + ".partial";
-  std::error_code fault;
-  {
-    std::ofstream file(partial, std::ios::binary);
-    file << text;
-    if (!file.flush()) fault = std::make_error_code(std::errc::io_error);
-  }
-  if (!fault) std::filesystem::rename(partial, name, fault);
-  if (!fault) return;
-  std::filesystem::remove(partial, fault);
-  throw Error(ErrorKind::cannot_write, name,
-              "the report can't be written there; name a file in a folder "
-              "that exists and may be written to");
-}
-
 std::vector<std::string> advice_on(const SpanBench& bench) {
   std::vector<std::string> advice;
   for (SpanPrecision precision : {SpanPrecision::f32, SpanPrecision::f64}) {
@@ -394,6 +377,8 @@ int bench_spans(const SpanBenchArguments& arguments, Console& console) {
   if (arguments.format != "text" && arguments.format != "json") {
     throw Error(ErrorKind::usage, "--format", fmt::format("'{}'; it is text or json", arguments.format));
   }
+  check_page_name({"--report", arguments.report});
+  if (!arguments.report.empty()) check_writable(arguments.report); // before the measurements
   const Progress progress = console.progress();
   SpanBench bench;
   bench.target = batch_target();
@@ -403,9 +388,7 @@ int bench_spans(const SpanBenchArguments& arguments, Console& console) {
   measure_view(bench, arguments.pack, arguments.quick, progress);
   bench.advice = advice_on(bench);
 
-  if (!arguments.report.empty()) {
-    write_whole(arguments.report, spans_html(bench));
-  }
+  if (!arguments.report.empty()) write_text_file(arguments.report, spans_html(bench));
   console.print(arguments.format == "json" ? spans_json(bench) : spans_text(bench));
   return 0;
 }

@@ -1,6 +1,7 @@
 #include "bake_report.h"
 #include "bake_samples.h"
 #include "jobs.h"
+#include "output_file.h"
 #include "verb.h"
 
 #include "tilepack/error/error.h"
@@ -8,6 +9,7 @@
 #include "tilepack/image/staged_file.h"
 #include "tilepack/pack/bake.h"
 #include "tilepack/pack/bake_fields.h"
+#include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/pack_write.h"
 #include "tilepack/pack/preset.h"
 #include "tilepack/verify/bake_page.h"
@@ -90,8 +92,8 @@ Preset preset_called(const std::string& name) {
     throw Error(ErrorKind::cannot_read, name, "there is no such preset file");
   const std::string nearest = nearest_name(name, known);
   throw Error(ErrorKind::usage, "--preset",
-              fmt::format("there is no preset '{}'{}; --list-presets shows them, and a FILE is taken too",
-                          name, nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+              fmt::format("there is no preset '{}'; {}--list-presets shows them, and a FILE is taken too",
+                          name, nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest)));
 }
 
 BakeOptions options_from(const BakeArguments& arguments) {
@@ -120,12 +122,37 @@ private:
   std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
 };
 
-// Refuses early what can't be written. A report inside the pack's folder has to wait for the folder.
-void check_report(const BakeArguments& arguments) {
-  if (arguments.report.empty()) return;
-  const fs::path folder = fs::absolute(arguments.report).parent_path().lexically_normal();
+// Refuses early what can't be written, or would replace what the pack is made from. A report inside the
+// pack's folder has to wait for the folder.
+void check_outputs_of(const BakeArguments& arguments, const std::vector<MaterialFile>& files) {
+  const OutputFile depfile{"--depfile", arguments.depfile}, page{"--report", arguments.report};
+  check_page_name(page);
+  std::vector<std::string> inputs;
+  for (const MaterialFile& file : files) inputs.push_back(file.file);
+  if (fs::is_regular_file(arguments.preset)) inputs.push_back(arguments.preset);
+  check_outputs(std::vector{depfile, page}, inputs);
+  check_pack_folder_for(arguments.folder, inputs);
+  if (!depfile.file.empty()) check_writable(depfile.file);
+  if (page.file.empty()) return;
+  const fs::path folder = fs::absolute(page.file).parent_path().lexically_normal();
   if (folder != (fs::absolute(arguments.folder) / "").lexically_normal().parent_path())
-    const StagedFile probe{arguments.report};
+    check_writable(page.file);
+}
+
+// A depfile that gets its name only once the pack is in place.
+std::unique_ptr<StagedFile> staged_depfile(const BakeArguments& arguments,
+                                           const std::vector<MaterialFile>& files,
+                                           const PackDescription& made) {
+  if (arguments.depfile.empty()) return nullptr;
+  std::vector<std::string> pack_files{(fs::path(arguments.folder) / "pack.json").string()};
+  for (const std::string& file : made.all_files())
+    pack_files.push_back((fs::path(arguments.folder) / file).string());
+  check_outputs(std::vector<OutputFile>{{"--depfile", arguments.depfile}}, pack_files);
+  const std::string text = dependencies(arguments, files);
+  auto staged = std::make_unique<StagedFile>(arguments.depfile);
+  staged->write(0, std::as_bytes(std::span(text.data(), text.size())));
+  staged->check();
+  return staged;
 }
 
 int run_bake(const BakeArguments& arguments, Console& console) {
@@ -143,8 +170,7 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   if (!arguments.encoding.empty()) asked = arguments.encoding == "srgb" ? Encoding::srgb : Encoding::linear;
 
   Stopwatch watch;
-  check_pack_folder(arguments.folder); // before minutes are spent on what can't be stored
-  check_report(arguments);
+  check_outputs_of(arguments, files); // before minutes are spent on what can't be stored
   StageClock clock;
   const Progress progress = clock.around(console.progress());
   report(progress, "reading", 0.0);
@@ -154,19 +180,16 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   report(progress, "figures", 0.5);
   BakeStory story{fs::path(arguments.sample).filename().string(), bake_facts(made, samples), {}};
   const double bake_seconds = watch.lap();
-  std::optional<Depfile> depfile;
-  if (!arguments.depfile.empty()) depfile.emplace(arguments.depfile, dependencies(arguments, files));
+  const PackDescription description = described(made.pack);
+  const std::unique_ptr<StagedFile> depfile = staged_depfile(arguments, files, description);
   write_pack(made.pack, arguments.folder, progress);
   if (depfile) depfile->commit();
   const double write_seconds = watch.lap();
   if (!arguments.report.empty()) {
     story.stages = clock.shares();
-    StagedFile page(arguments.report);
-    page.write(0, std::as_bytes(std::span<const char>(bake_page(story, made, samples))));
-    page.commit();
+    write_text_file(arguments.report, bake_page(story, made, samples));
   }
 
-  const PackDescription description = described(made.pack);
   console.print(arguments.report_format == "json"
                     ? bake_report_json(description, arguments.folder, &story.facts)
                     : bake_report_text(description, arguments.folder, &story.facts));

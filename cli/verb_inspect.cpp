@@ -1,4 +1,5 @@
 #include "inspect_mapping.h"
+#include "output_file.h"
 #include "verb.h"
 
 #include "tilepack/error/nearest_name.h"
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,12 +52,12 @@ int map_named(const Pack& pack, const std::string& name) {
                           nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest), list));
 }
 
-void write_text_file(const std::string& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-    throw Error(ErrorKind::cannot_write, file, "the picture can't be written; is its folder there?");
+void check_outputs_of(const InspectArguments& a) {
+  check_outputs(std::vector<OutputFile>{{"--picture", a.picture},
+                                        {"--index-map", a.index_map},
+                                        {"--corner-picture", a.corner_picture},
+                                        {"--preview", a.preview}},
+                files_of_pack(a.pack));
 }
 
 void write_drawing(const std::string& file, const Drawing& drawing) {
@@ -71,6 +71,7 @@ void write_drawing(const std::string& file, const Drawing& drawing) {
 }
 
 int run_inspect_mapping(const InspectArguments& arguments, Console& console) {
+  check_outputs_of(arguments);
   const Pack pack = read_pack(arguments.pack);
   if (!arguments.picture.empty()) write_drawing(arguments.picture, mapping_drawing(pack));
   console.print(mapping_report(pack, arguments.format));
@@ -78,6 +79,7 @@ int run_inspect_mapping(const InspectArguments& arguments, Console& console) {
 }
 
 int run_inspect(const InspectArguments& arguments, Console& console) {
+  check_outputs_of(arguments);
   PackSummary summary{arguments.pack, read_pack_description(arguments.pack), {}, {}};
   const fs::path json = pack_json_of(arguments.pack);
   std::vector<std::string> files = summary.description.all_files();
@@ -86,6 +88,9 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   const Pack pack = read_pack(arguments.pack);
   PackPictureOptions options;
   options.map = map_named(pack, arguments.map);
+  if (arguments.level && *arguments.level >= pack.tile_levels)
+    throw Error(ErrorKind::usage, "--level",
+                fmt::format("{}; the pack has levels 0 to {}", *arguments.level, pack.tile_levels - 1));
   options.level = arguments.level;
   options.marks = !arguments.bare;
   if (!arguments.picture.empty()) write_drawing(arguments.picture, pack_picture(pack, options));

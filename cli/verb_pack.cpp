@@ -1,5 +1,6 @@
 #include "bake_report.h"
 #include "jobs.h"
+#include "output_file.h"
 #include "verb.h"
 
 #include "tilepack/error/error.h"
@@ -87,7 +88,7 @@ void check_agreement(const TileSet& set, double tolerance, Console& console) {
 
 int run_pack(const PackArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
-  check_pack_folder(arguments.folder);
+  check_pack_folder_for(arguments.folder, arguments.tiles);
   const TileColors tiles = parsed_color_list(text_of(arguments.colors), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);
   std::vector<Drawing> drawings;

@@ -1,4 +1,5 @@
 #include "jobs.h"
+#include "output_file.h"
 #include "render_camera.h"
 #include "verb.h"
 
@@ -15,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tilepack::cli {
 namespace {
@@ -122,6 +124,9 @@ RenderTarget target_for(const std::string& file, const PackedMap& map, const std
 int run_render(const RenderArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
   const Border border = border_of(arguments.border);
+  std::vector<std::string> inputs = files_of_pack(arguments.pack);
+  if (!arguments.view.mesh.empty()) inputs.push_back(arguments.view.mesh);
+  check_outputs(std::vector<OutputFile>{{"--output", arguments.output}}, inputs);
   if (arguments.view.camera) {
     const Pack pack = read_pack(arguments.pack);
     const int map = map_number(pack, arguments.map);

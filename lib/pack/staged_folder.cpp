@@ -126,7 +126,9 @@ StagedFolder::StagedFolder(const fs::path& given) : target(given) {
     if (folder.filename().empty()) folder = folder.parent_path(); // "pack/"
     const fs::file_status status = fs::status(folder);
     if (fs::exists(status) && !fs::is_directory(status))
-      throw Error(ErrorKind::cannot_write, target.string(), "is no folder; name another one");
+      throw Error(ErrorKind::cannot_write, "", "is no folder; name another one");
+    if (fs::is_symlink(fs::symlink_status(folder)))
+      throw Error(ErrorKind::cannot_write, "", "is a link to nothing; remove it or name another folder");
     recover_left_over(folder, sibling_container(folder));
     recover_left_over(folder, inner_container(folder));
     make_parents();

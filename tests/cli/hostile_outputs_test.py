@@ -2,13 +2,19 @@
 
 import os
 import resource
+import shutil
 import subprocess
 import unittest
 
 from command import TILEPACK, CommandCase
 
 SMALL = ("--tile-size", 16, "--effort", 0, "--virtual-size", 8)
-CANNOT_WRITE = 4
+USAGE, CANNOT_WRITE = 1, 4
+
+
+def almost_full():
+    """A limit on the size of files stands for a full disk: writing fails in the middle of one."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
 
 
 class Outputs(CommandCase):
@@ -33,21 +39,89 @@ class Outputs(CommandCase):
                      saying="nowhere/out.d")
         self.refused("bake", "missing.png", "-o", "out", *SMALL, "--depfile", "out.d", code=2)
 
+    def test_a_link_to_nothing(self):
+        os.symlink("nowhere", self.path("out"))
+        done = self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", *SMALL, code=CANNOT_WRITE)
+        self.assertIn("link to nothing", done.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["out", "sample.png"])
+
+    def test_what_is_read_is_not_replaced(self):
+        self.older_pack()
+        self.noise_png("other.png", seed=2)
+        self.write("mine.json", '{"purpose": "p", "cost": "c", "effort": 0}')
+        self.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n")
+        os.symlink("sample.png", self.path("link.png"))
+        bake = ("bake", "sample.png", "-o", "new", *SMALL)
+        again = ("bake", "sample.png", "-o", "out", *SMALL)
+        for arguments in ((*bake, "--depfile", "sample.png"),
+                          (*bake, "--depfile", "./new/../sample.png"),
+                          (*bake, "--depfile", "link.png"),
+                          (*bake, "--map", "height=other.png", "--depfile", "other.png"),
+                          (*bake, "--preset", "mine.json", "--depfile", "mine.json"),
+                          (*again, "--depfile", "out/color_1.png"),
+                          (*again, "--depfile", "out/pack.json"),
+                          ("bake", "out/color_0.png", "-o", "out", *SMALL),
+                          ("pack", "out/color_0.png", "-o", "out", "--colors", "colors.json"),
+                          ("render", "out", "-o", "out/color_1.png"),
+                          ("render", "out/pack.json", "-o", self.path("out", "color_1.png")),
+                          ("inspect", "out", "--picture", "out/color_0.png"),
+                          ("inspect", "out", "--preview", "out/color_0.png"),
+                          ("inspect", "out", "--mapping", "--picture", "out/color_0.png"),
+                          ("compare", "sample.png", "other.png", "--picture", "other.png")):
+            with self.subTest(arguments):
+                self.refused(*arguments, code=USAGE, saying="would replace")
+
+    def test_outputs_do_not_replace_one_another(self):
+        self.older_pack()
+        self.refused("bake", "sample.png", "-o", "new", *SMALL, "--depfile", "x.html", "--report", "./x.html",
+                     code=USAGE, saying=("--report", "--depfile"))
+        self.refused("inspect", "out", "--picture", "x.png", "--preview", "x.png", code=USAGE,
+                     saying=("--picture", "--preview"))
+
+    def test_pages_are_html(self):
+        self.older_pack()
+        for arguments in (("bake", "sample.png", "-o", "out", *SMALL, "--report", "sample.png"),
+                          ("bake", "sample.png", "-o", "out", *SMALL, "--report", "out/pack.json"),
+                          ("bench", "out", "--quick", "--report", "out/pack.json"),
+                          ("bench", "--spans", "--quick", "--report", "sample.png")):
+            with self.subTest(arguments):
+                self.refused(*arguments, code=USAGE, saying=("--report", ".html"))
+
     def older_pack(self):
         self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", *SMALL)
 
     def test_a_full_disk(self):
-        """A limit on the size of files stands for a full disk: writing fails in the middle of one."""
         self.older_pack()
         sample = self.noise_png("large.png", 256, 256)
-
-        def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
-
         for output in ("out", "new", "new/deep"):
             with self.subTest(output):
                 self.refused("bake", sample, "-o", output, "--effort", 0, "--tile-size", 64, code=CANNOT_WRITE,
-                             saying=output, preexec_fn=limit)
+                             saying=output, preexec_fn=almost_full)
+        os.mkdir(self.path("deep" * 60))
+        os.mkdir(self.path("deep" * 60, "deep" * 60))
+        names = os.path.join("deep" * 60, "deep" * 60)  # so long that the rule fills the disk
+        for name in ("a", "b", "c", "d", "e", "f", "g", "h"):
+            shutil.copy(self.path("sample.png"), self.path(names, name + ".png"))
+        maps = [part for name in "abcdefgh" for part in ("--map", f"{name}:data={names}/{name}.png")]
+        self.refused("bake", "sample.png", "-o", "out", *SMALL, *maps, "--depfile", "out.d", code=CANNOT_WRITE,
+                     saying="out.d: writing failed", preexec_fn=almost_full)
+
+    def test_a_full_disk_for_pictures(self):
+        self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", "--effort", 0, "--tile-size", 32,
+                          "--virtual-size", 64, "--mapping", "index")
+        for arguments in (("inspect", "out", "--picture", "x.svg"),
+                          ("inspect", "out", "--picture", "x.png"),
+                          ("inspect", "out", "--index-map", "x.json"),
+                          ("render", "out", "-o", "x.png"),
+                          ("render", "out", "-o", "x.exr"),
+                          ("compare", "out/color_0.png", "sample.png", "--picture", "x.png")):
+            if arguments[0] == "compare":
+                self.noise_png("sample.png", 128, 128)
+            with self.subTest(arguments):
+                self.refused(*arguments, code=CANNOT_WRITE, saying="writing failed", preexec_fn=almost_full)
+                self.write(arguments[-1], "older")
+                self.refused(*arguments, code=CANNOT_WRITE, preexec_fn=almost_full)
+                os.remove(self.path(arguments[-1]))
 
     def test_a_read_only_folder(self):
         self.older_pack()

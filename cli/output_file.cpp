@@ -1,0 +1,80 @@
+#include "output_file.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/image/staged_file.h"
+#include "tilepack/pack/pack_folder_read.h"
+#include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/pack_write.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace tilepack::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path one_spelling(const std::string& file) {
+  std::error_code fault;
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(file), fault);
+  return fault ? fs::absolute(file).lexically_normal() : canonical;
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code fault;
+  return one_spelling(a) == one_spelling(b) || fs::equivalent(a, b, fault); // hard links
+}
+
+} // namespace
+
+void check_outputs(std::span<const OutputFile> outputs, std::span<const std::string> inputs) {
+  const auto refuse = [](const OutputFile& output, const std::string& why) {
+    throw Error(ErrorKind::usage, output.option,
+                fmt::format("'{}' {}; choose another name", output.file, why));
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const OutputFile& output = outputs[i];
+    if (output.file.empty()) continue;
+    for (const std::string& input : inputs)
+      if (same_file(output.file, input)) refuse(output, "would replace a file that is worked from");
+    for (const OutputFile& other : outputs.first(i))
+      if (!other.file.empty() && same_file(output.file, other.file))
+        refuse(output, fmt::format("is what {} writes too", other.option));
+  }
+}
+
+std::vector<std::string> files_of_pack(const std::string& pack) {
+  const fs::path json = pack_json_of(pack);
+  std::vector<std::string> files{json.string()};
+  for (const std::string& file : read_pack_description(pack).all_files())
+    files.push_back((folder_of(json) / file).string());
+  return files;
+}
+
+void check_pack_folder_for(const std::string& folder, std::span<const std::string> inputs) {
+  check_pack_folder(folder);
+  if (!fs::exists(fs::path(folder) / "pack.json")) return;
+  for (const std::string& file : files_of_pack(folder))
+    check_outputs(std::vector<OutputFile>{{"--output", file}}, inputs);
+}
+
+void check_page_name(const OutputFile& output) {
+  const std::string extension = fs::path(output.file).extension().string();
+  if (output.file.empty() || extension == ".html" || extension == ".htm") return;
+  throw Error(ErrorKind::usage, output.option,
+              fmt::format("'{}' ends in '{}'; the page is written as .html", output.file, extension));
+}
+
+void check_writable(const std::string& file) {
+  const StagedFile probe(file);
+}
+
+void write_text_file(const std::string& file, std::string_view text) {
+  StagedFile staged(file);
+  staged.write(0, std::as_bytes(std::span(text.data(), text.size())));
+  staged.commit();
+}
+
+} // namespace tilepack::cli
