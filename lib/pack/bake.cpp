@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace tilepack {
@@ -45,6 +46,23 @@ std::string label_of(const SampleMap& map) {
   return map.file.empty() ? map.name : map.file;
 }
 
+// Averages, differences and their squares must stay finite, and so must what is stored.
+constexpr float largest_value = 1e30f;
+constexpr float largest_half = 65504.0f;
+
+void check_values(const SampleMap& map, Depth stored) {
+  const float largest = stored == Depth::f16 ? largest_half : largest_value;
+  const std::vector<float>& values = map.image.data();
+  const auto bad =
+      std::find_if(values.begin(), values.end(), [&](float v) { return !(std::abs(v) <= largest); });
+  if (bad == values.end()) return;
+  const auto texel = (bad - values.begin()) / map.image.channels();
+  throw Error(ErrorKind::invalid_content, label_of(map),
+              fmt::format("holds {} at texel ({}, {}); {} values may be {} to {}: scale the image{}", *bad,
+                          texel % map.image.width(), texel / map.image.width(), name_of(stored), -largest,
+                          largest, stored == Depth::f16 ? ", or store it with --depth f32" : ""));
+}
+
 void check_fit(const SampleMap& sample, Size tile) {
   const Size size = sample.image.size();
   if (size.width >= tile.width && size.height >= tile.height) return;
@@ -60,7 +78,7 @@ void check_fit(const SampleMap& sample, Size tile) {
                           tile.width, tile.height, way_out));
 }
 
-void check_samples(std::span<const SampleMap> samples) {
+void check_samples(std::span<const SampleMap> samples, const BakeOptions& options) {
   if (samples.empty()) throw Error(ErrorKind::usage, "", "there is no sample; name an image");
   std::set<std::string> names;
   for (const SampleMap& map : samples) {
@@ -68,12 +86,17 @@ void check_samples(std::span<const SampleMap> samples) {
       throw Error(ErrorKind::usage, map.name,
                   "is no name of a map; use 1 to 64 letters, digits, '-' and '_'");
     if (!names.insert(map.name).second)
-      throw Error(ErrorKind::usage, map.name, "is the name of two maps; give each its own");
+      throw Error(ErrorKind::usage, map.name,
+                  "is the name of two maps; give each its own, as in --map NAME:ROLE=FILE");
     if (map.image.size() != samples[0].image.size())
       throw Error(ErrorKind::invalid_content, label_of(map),
                   fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
                               map.image.width(), map.image.height(), label_of(samples[0]),
                               samples[0].image.width(), samples[0].image.height()));
+    if (map.role == Role::normal && map.image.channels() == 1)
+      throw Error(ErrorKind::invalid_content, label_of(map),
+                  "has 1 channel, and a normal map has 3: x, y and z; give another role, such as height");
+    check_values(map, options.depth.value_or(map.depth));
   }
 }
 
@@ -95,7 +118,7 @@ Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const 
 }
 
 BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress) {
-  check_samples(samples);
+  check_samples(samples, options);
   SynthOptions synth = options.synth;
   if (options.fit_tile_size)
     synth.tile_size =

@@ -51,6 +51,25 @@ class Samples(CommandCase):
                 exr = float_exr(64, 64, lambda x, y: value if (x, y) == (5, 7) else 0.5)
                 self.bake_refused(self.write("bad.exr", exr), INVALID, "(5, 7)")
 
+    def test_values_too_large(self):
+        exr = float_exr(64, 64, lambda x, y: -3e38 if (x, y) == (5, 7) else 3e38)
+        self.bake_refused(self.write("bad.exr", exr), INVALID, ["(0, 0)", "1e+30"])
+        exr = float_exr(64, 64, lambda x, y: 70000.0 if (x, y) == (5, 7) else 0.5)
+        self.write("bright.exr", exr)
+        self.refused("bake", "bright.exr", "-o", "out", *SMALL, "--depth", "f16", code=INVALID,
+                     saying=["bright.exr", "70000 at texel (5, 7)", "-65504 to 65504", "--depth f32"])
+        self.run_tilepack("bake", "bright.exr", "-o", "out", *SMALL)
+        self.run_tilepack("validate", "out")
+        exr = float_exr(64, 64, lambda x, y: 1e30 if (x + y) % 3 else -1e30)
+        self.run_tilepack("bake", self.write("far.exr", exr), "-o", "far", *SMALL, "--mips", "least-squares")
+        self.run_tilepack("validate", "far")
+
+    def test_a_normal_map_of_one_channel(self):
+        self.noise_png("color.png")
+        self.noise_png("grey.png", channels=1)
+        self.refused("bake", "color.png", "-o", "out", *SMALL, "--map", "normal=grey.png", code=INVALID,
+                     saying=["grey.png", "1 channel", "height"])
+
     def test_a_folder_or_a_device_is_no_sample(self):
         os.mkdir(self.path("folder"))
         self.refused("bake", "folder", "-o", "out", code=INVALID, saying="no color map")
