@@ -88,7 +88,7 @@ struct BenchOptions {
 
 /// Times the fast and the reference sampler on one map of a pack, after checking each answer against the
 /// reference (Error, check_failed, if one is off by more than a quarter of an 8-bit unit; 8.8 weights: 2
-/// units). Times differ from run to run, errors don't.
+/// units; both times the largest value where that is above 1). Times differ from run to run, errors don't.
 LookupBench bench_lookups(const Pack& pack, int map, const BenchOptions& options,
                           const Progress& progress = {});
 

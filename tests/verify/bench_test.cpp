@@ -53,6 +53,21 @@ TEST_CASE("lookups are checked before they are timed, and every configuration is
   for (const SizeCost& size : bench.sizes) CHECK_FALSE(size.stored);
 }
 
+TEST_CASE("values far above 1 are as exact as floats are") {
+  Pack pack = small_pack();
+  for (PackedMap& map : pack.maps) {
+    map.encoding = Encoding::linear;
+    map.depth = Depth::f32;
+    for (Image& level : map.levels)
+      for (float& value : level.data()) value = 1e6f + 1e6f * value;
+  }
+  BenchOptions options;
+  options.rounds = 1;
+  options.large = false;
+  const LookupBench bench = bench_lookups(pack, 0, options);
+  CHECK(bench.costs.front().off_reference > 1); // of 255: more than could be let pass below 1
+}
+
 TEST_CASE("packs with a corner pack are looked up with and without it") {
   Pack pack = small_pack();
   PackingOptions packing;
