@@ -67,6 +67,12 @@ std::string explained(const CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("unknown option '{}'{}", name, suggestion(name, known));
   }
   if (!extras.empty()) return fmt::format("unexpected argument '{}'", extras.front());
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    const std::string what = error.what(); // "--report: 1 required FILE.html missing"
+    const std::string name = what.substr(0, what.find(':'));
+    if (const CLI::Option* option = app.get_option_no_throw(name))
+      return fmt::format("{}: its value is missing; write {} {}", name, name, option->get_type_name());
+  }
   return error.what();
 }
 

@@ -1,3 +1,4 @@
+#include "output_file.h"
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
@@ -6,10 +7,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tilepack::cli {
 namespace {
@@ -44,6 +47,8 @@ int run_compare(const CompareArguments& arguments, Console& console) {
                             packs ? "a pack" : "an image", arguments.b, packs ? "an image" : "a pack"));
   if (packs && !arguments.picture.empty())
     throw Error(ErrorKind::usage, "--picture", "is for two images; name two of the packs' files instead");
+  check_outputs(std::vector<OutputFile>{{"--picture", arguments.picture}},
+                std::vector{arguments.a, arguments.b});
   const Progress progress = console.progress();
   report(progress, "reading", 0.0);
   Comparison comparison;
@@ -66,6 +71,17 @@ int run_compare(const CompareArguments& arguments, Console& console) {
   return 0;
 }
 
+// CLI11's own would write out the largest double.
+CLI::Validator range_check(double lowest, double highest, const std::string& allowed) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        double value = 0;
+        const bool good = CLI::detail::lexical_cast(text, value) && value >= lowest && value <= highest;
+        return good ? std::string() : fmt::format("'{}' is not allowed; it must be {}", text, allowed);
+      },
+      "");
+}
+
 Action declare_compare(CLI::App& app) {
   auto arguments = std::make_shared<CompareArguments>();
   app.add_option("A", arguments->a, "image, or pack (folder or pack.json)")->required()->type_name("");
@@ -75,7 +91,7 @@ Action declare_compare(CLI::App& app) {
       ->type_name("text|json");
   app.add_option("--max-difference", arguments->limits.max_difference,
                  "alike if no value differs by more: 1/255 for integer images, plain for float")
-      ->check(CLI::NonNegativeNumber)
+      ->check(range_check(0, HUGE_VAL, "0 or more"))
       ->type_name("N");
   app.add_option("--min-psnr", arguments->limits.min_psnr, "alike from this PSNR on, in dB")->type_name("DB");
   app.add_option("--min-ssim", arguments->limits.min_ssim, "alike from this SSIM on")
@@ -83,8 +99,8 @@ Action declare_compare(CLI::App& app) {
       ->type_name("S");
   app.add_option("--picture", arguments->picture, "write the difference, magnified, as a PNG")
       ->type_name("FILE.png");
-  app.add_option("--gain", arguments->gain, "how much the picture magnifies; 8 unless given")
-      ->check(CLI::PositiveNumber)
+  app.add_option("--gain", arguments->gain, "how much the picture magnifies, 0.001 to 1000; 8 unless given")
+      ->check(range_check(0.001, 1000, "a number of 0.001 to 1000"))
       ->type_name("N");
   return [arguments](Console& console) { return run_compare(*arguments, console); };
 }

@@ -108,7 +108,10 @@ void set_coloring(BakeOptions& o, const std::string& text) {
 
 void set_colors(BakeOptions& o, const std::string& text) {
   if (o.synth.coloring == Coloring::corner) {
-    o.synth.colors = {0, 0, static_cast<int>(whole(text, 1, 4))};
+    std::int64_t count = 0;
+    if (!parse_whole(text, 1, 4, count))
+      refuse(text, "a whole number of 1 to 4, of corners; 1 to 8 or HxV with --coloring edge");
+    o.synth.colors = {0, 0, static_cast<int>(count)};
   } else {
     const Extent e = extent(text, 1, 8, ": H horizontal and V vertical colors", "HxV");
     o.synth.colors = {static_cast<int>(e.width), static_cast<int>(e.height), 0};

@@ -370,7 +370,12 @@ SetFigures read_synthesis(const JsonCursor& value) {
 PackDescription parsed_pack_json(std::string_view text, const std::string& file) {
   const JsonCursor root = JsonCursor::parse(text, file);
   root.member("format").one_of({"tilepack"});
-  root.member("version").integer(1, 1);
+  const JsonCursor version = root.member("version");
+  if (version.is_integer() && version.number(-HUGE_VAL, HUGE_VAL) > 1)
+    version.fail(
+        fmt::format("is {}, and this program reads 1; read the pack with a newer tilepack, or bake it again",
+                    version.shown()));
+  version.integer(1, 1);
   root.only({"format", "version", "generator", "tile_size", "coloring", "colors", "tiles", "layout", "maps",
              "mapping", "corner_pack", "mips", "synthesis"});
   PackDescription result;

@@ -20,7 +20,8 @@ class Arguments(CommandCase):
         self.refused("bake", "a.png", "b.png", "-o", "out", code=USAGE, saying="unexpected argument 'b.png'")
         self.refused("bake", "a.png", code=USAGE, saying="--output is required")
         self.refused("bake", "-o", "out", code=USAGE, saying="SAMPLE is required")
-        self.refused("bake", "a.png", "-o", "out", "--seed", code=USAGE, saying="--seed")
+        self.refused("bake", "a.png", "-o", "out", "--seed", code=USAGE, saying="write --seed N")
+        self.refused("bake", "a.png", "-o", "out", "--report", code=USAGE, saying="write --report FILE.html")
         self.refused("bake", "a.png", "-o", "out", "--jobs", -1, code=USAGE, saying="--jobs")
 
     def test_values_out_of_range(self):
@@ -38,6 +39,11 @@ class Arguments(CommandCase):
                 with self.subTest(flag=flag, value=value):
                     self.refused("bake", sample, "-o", "out", flag, value, code=USAGE, saying=(flag, value))
         self.refused("bake", sample, "-o", "out", "--tile-size=", code=USAGE, saying="--tile-size")
+        self.refused("bake", sample, "-o", "out", "--colors", "9", code=USAGE,
+                     saying=("1 to 4", "1 to 8", "--coloring edge"))
+        for flag, value in (("--gain", "0"), ("--gain", "nan"), ("--max-difference", "-1"), ("--max-difference", "x")):
+            message = self.refused("compare", sample, sample, flag, value, code=USAGE, saying=(flag, f"'{value}'"))
+            self.assertLess(len(message), 120)
 
     def test_values_that_contradict_each_other(self):
         sample = self.noise_png("sample.png")
@@ -55,7 +61,7 @@ class Arguments(CommandCase):
             with self.subTest(option):
                 self.refused("bake", sample, "-o", "out", "--map", option, code=USAGE, saying="--map")
         self.refused("bake", sample, "-o", "out", "--map", "norml=a.png", code=USAGE, saying="did you mean 'normal'?")
-        self.refused("bake", sample, "-o", "out", "--map", "color=sample.png", code=USAGE, saying="two maps")
+        self.refused("bake", sample, "-o", "out", "--map", "color=sample.png", code=USAGE, saying=("two maps", "NAME:ROLE=FILE"))
         self.refused("bake", sample, "-o", "out", "--map", "../x:data=sample.png", code=USAGE)
         self.noise_png("small.png", 32, 64)
         self.refused("bake", sample, "-o", "out", *SMALL, "--map", "height=small.png", code=INVALID,
