@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace tilepack {
@@ -15,6 +16,17 @@ using Remarks = std::vector<BakeRemark>;
 std::string shown(Size size) {
   return size.width == size.height ? fmt::format("{}", size.width)
                                    : fmt::format("{}x{}", size.width, size.height);
+}
+
+// Levels of a tile: both sides are halved as long as they are even.
+int mip_levels(Size tile) {
+  return 1 + std::countr_zero(static_cast<unsigned>(tile.width | tile.height));
+}
+
+double tiles_in_sample(const BakeFacts& facts) {
+  const Size tile = facts.synth.tile_size;
+  return static_cast<double>(facts.sample.width) / tile.width * static_cast<double>(facts.sample.height) /
+         tile.height;
 }
 
 double percent(double share) {
@@ -70,8 +82,13 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
         period.length, axis, side, side / period.length);
     if (fitting != side && misfit(period, fitting) < off)
       add(remarks, grade,
-          fmt::format("{} Bake with --tile-size {}, which --tile-size auto finds.", found,
-                      shown(advice.size)));
+          fmt::format("{} Bake with --tile-size {}, which --tile-size auto finds{}.", found,
+                      shown(advice.size),
+                      mip_levels(advice.size) < mip_levels(tile)
+                          ? fmt::format(" (tiles of that size have {} mip level{}, these {})",
+                                        mip_levels(advice.size), mip_levels(advice.size) == 1 ? "" : "s",
+                                        mip_levels(tile))
+                          : ""));
     else
       add(remarks, grade,
           fmt::format("{} No tile that fits holds whole repeats; a larger sample, or one "
@@ -134,17 +151,18 @@ void judge_borders(const BakeFacts& facts, Remarks& remarks) {
           f.border_mean, f.sample_step, way_out));
 }
 
+constexpr double fewest_tiles = 6; // in a sample that gives every tile an inside of its own
+
 void judge_sample(const BakeFacts& facts, Remarks& remarks) {
   const SampleNature& n = facts.nature;
   const Size tile = facts.synth.tile_size;
-  const double tiles_in_sample = static_cast<double>(facts.sample.width) / tile.width *
-                                 static_cast<double>(facts.sample.height) / tile.height;
-  if (tiles_in_sample < 6) {
+  const double held = tiles_in_sample(facts);
+  if (held < fewest_tiles) {
     const int smaller = std::min(facts.sample.width, facts.sample.height) / 4 / 8 * 8;
-    add(remarks, tiles_in_sample < 2.5 ? Grade::poor : Grade::fair,
+    add(remarks, held < 2.5 ? Grade::poor : Grade::fair,
         fmt::format("The sample holds {:.1f} tiles, too little for every tile to have an inside of its own. "
                     "Use a larger sample{}.",
-                    tiles_in_sample,
+                    held,
                     smaller >= 16 && smaller < std::min(tile.width, tile.height)
                         ? fmt::format(", or --tile-size {}", smaller)
                         : ""));
@@ -163,32 +181,42 @@ void judge_sample(const BakeFacts& facts, Remarks& remarks) {
         "that. Store it as a texture of its own.");
 }
 
+// More tiles show more only where the sample has more to show than they hold.
+std::string way_to_variety(const BakeFacts& facts) {
+  const SynthOptions& o = facts.synth;
+  const bool corner = o.coloring == Coloring::corner;
+  const ColorCounts& k = o.colors;
+  const int more = 1 + (corner ? k.corner : std::min(k.horizontal, k.vertical));
+  const double held = tiles_in_sample(facts);
+  if (held < facts.tiles) return held < fewest_tiles ? "" : " A larger sample or smaller tiles show more.";
+  if (more > (corner ? 4 : 8)) return "";
+  const int complete = corner ? facts.tiles : k.horizontal * k.horizontal * k.vertical * k.vertical;
+  return fmt::format(" --colors {} shows more, in {} tiles.", more,
+                     facts.tiles == complete ? more * more * more * more : 2 * more * more);
+}
+
 void judge_variety(const BakeFacts& facts, Remarks& remarks) {
   const SetFigures& f = facts.report.figures;
-  const SynthOptions& o = facts.synth;
-  const int colors =
-      o.coloring == Coloring::corner ? o.colors.corner : std::min(o.colors.horizontal, o.colors.vertical);
-  const bool more_colors = colors < (o.coloring == Coloring::corner ? 4 : 8);
-  const std::string way_out = more_colors
-                                  ? fmt::format(" --colors {} shows more, in {} tiles.", colors + 1,
-                                                (colors + 1) * (colors + 1) * (colors + 1) * (colors + 1))
-                                  : "";
+  if (facts.tiles == 1) {
+    add(remarks, Grade::fair, "One tile lies in all cells. --colors 2 shows more, in 16 tiles.");
+    return;
+  }
+  const std::string way_out = way_to_variety(facts);
   const std::string found = fmt::format(
       "The tiles show {:.0f} % of the sample and are as varied as {:.1f} tiles without a texel in "
       "common, of {}",
       percent(f.coverage), f.distinct_tiles, facts.tiles);
-  const double possible = std::min(static_cast<double>(facts.tiles),
-                                   static_cast<double>(facts.sample.width) * facts.sample.height /
-                                       o.tile_size.width / o.tile_size.height);
-  if (f.coverage < 0.5 && f.distinct_tiles < 0.5 * possible)
+  const double possible = std::min(static_cast<double>(facts.tiles), tiles_in_sample(facts));
+  const bool few = f.coverage < 0.5 && f.distinct_tiles < 0.5 * possible;
+  if (few)
     add(remarks, f.distinct_tiles < 0.3 * possible ? Grade::poor : Grade::fair,
         found + ": parts come back often, and others are never seen." + way_out);
   else
     add(remarks, Grade::good, found + ".");
-  if (f.shown_often > 0.35)
+  if (f.shown_often > 0.35) // the way out is said once
     add(remarks, Grade::fair,
         fmt::format("{:.0f} % of the tiles' area shows what half of all tiles show.{}",
-                    percent(f.shown_often), way_out));
+                    percent(f.shown_often), few ? "" : way_out));
   if (f.histogram_distance > 0.06)
     add(remarks, f.histogram_distance > 0.12 ? Grade::poor : Grade::fair,
         fmt::format(
@@ -234,6 +262,10 @@ std::string_view name_of(Grade grade) {
 
 BakeVerdict bake_verdict(const BakeFacts& facts) {
   BakeVerdict verdict;
+  if (facts.report.figures.sample_step == 0) {
+    add(verdict.remarks, Grade::good, "The sample is one plain value: nothing in it can be seen to repeat.");
+    return verdict;
+  }
   judge_sample(facts, verdict.remarks);
   judge_periods(facts, verdict.remarks);
   judge_cuts(facts, verdict.remarks);

@@ -29,6 +29,8 @@ BakeFacts good_facts() {
   facts.nature.two_tone = 0.7;
   facts.nature.drift = 0.05;
   facts.synth.tile_size = {128, 128};
+  facts.synth.coloring = Coloring::corner;
+  facts.synth.colors = {0, 0, 2};
   facts.sample = {512, 512};
   facts.tiles = 16;
   return facts;
@@ -98,11 +100,17 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     facts.report.figures.cut_mean = 20; // dear cuts may come from that
     CHECK(says(facts, Grade::poor, "--tile-size 128x" + std::to_string(fitting.height)));
     facts.report.figures.cut_mean = 8;
+    CHECK(fitting == Size{128, 96});
+    CHECK(says(facts, Grade::fair, "have 6 mip levels, these 8"));
+    facts.synth.tile_size = {100, 100}; // three levels, as 100 x 96 have
+    CHECK_FALSE(says(facts, Grade::fair, "mip level"));
     facts.synth.tile_size = fitting;
     CHECK(bake_verdict(facts).grade == Grade::good);
     CHECK(says(facts, Grade::good, "a tile holds"));
   }
   SECTION("borders that are cuts") {
+    facts.synth.coloring = Coloring::edge;
+    facts.synth.colors = {2, 2, 0};
     facts.report.figures.border_mean = 3;
     CHECK(says(facts, Grade::fair, "--coloring corner"));
     facts.report.figures.border_mean = 10;
@@ -132,6 +140,45 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     CHECK(says(facts, Grade::poor, "--colors 3 shows more, in 81 tiles"));
     facts.report.figures.shown_often = 0.5;
     CHECK(says(facts, Grade::fair, "half of all tiles"));
+    CHECK_FALSE(says(facts, Grade::fair, "half of all tiles show. --colors")); // said already
+    facts.report.figures.coverage = 0.6;
+    CHECK(says(facts, Grade::fair, "half of all tiles show. --colors 3"));
+    facts.report.figures.coverage = 0.3;
+    facts.synth.coloring = Coloring::edge;
+    facts.synth.colors = {2, 2, 0};
+    facts.tiles = 8; // the sequential set
+    facts.report.figures.distinct_tiles = 2;
+    CHECK(says(facts, Grade::poor, "--colors 3 shows more, in 18 tiles"));
+    facts.synth.colors = {8, 8, 0};
+    facts.sample = {9000, 9000};
+    facts.tiles = 4096;
+    CHECK_FALSE(says(facts, Grade::poor, "--colors"));
+  }
+  SECTION("more tiles than the sample has material for") {
+    facts.report.figures.coverage = 0.45;
+    facts.report.figures.distinct_tiles = 1;
+    facts.report.figures.shown_often = 0.5;
+    facts.sample = {400, 400}; // 9.8 tiles
+    CHECK(says(facts, Grade::poor, "A larger sample or smaller tiles"));
+    facts.sample = {300, 300}; // 5.5 tiles
+    CHECK(says(facts, Grade::poor, "never seen."));
+    CHECK(says(facts, Grade::fair, "--tile-size 72"));
+    for (const Grade grade : {Grade::fair, Grade::poor}) {
+      CHECK_FALSE(says(facts, grade, "--colors"));
+      CHECK_FALSE(says(facts, grade, "A larger sample or smaller tiles"));
+    }
+  }
+  SECTION("a single tile") {
+    facts.tiles = 1;
+    facts.report.figures.shown_often = 1;
+    CHECK(says(facts, Grade::fair, "--colors 2 shows more"));
+    CHECK_FALSE(says(facts, Grade::fair, "half of all tiles"));
+  }
+  SECTION("a sample of one value") {
+    facts.report.figures = {};
+    facts.report.figures.shown_often = 1;
+    CHECK(says(facts, Grade::good, "one plain value"));
+    CHECK(bake_verdict(facts).grade == Grade::good);
   }
   SECTION("a landmark") {
     facts.report.landmark = {{100, 200}, 6.0, 0.5};
