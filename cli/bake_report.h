@@ -14,8 +14,6 @@ namespace tilepack::cli {
 /// good it is. No times, so that it repeats. Text leaves out what is good.
 std::string bake_report_text(const PackDescription& made, const std::string& folder,
                              const BakeFacts* facts = nullptr);
-std::string bake_report_json(const PackDescription& made, const std::string& folder,
-                             const BakeFacts* facts = nullptr);
 
 /// Where the time goes, told from the names of stages in calls of progress: from one name to the next, all
 /// time is the first one's.

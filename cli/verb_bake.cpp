@@ -13,6 +13,7 @@
 #include "tilepack/pack/pack_write.h"
 #include "tilepack/pack/preset.h"
 #include "tilepack/verify/bake_page.h"
+#include "tilepack/verify/pack_summary.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -191,7 +192,7 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   }
 
   console.print(arguments.report_format == "json"
-                    ? bake_report_json(description, arguments.folder, &story.facts)
+                    ? made_json(description, arguments.folder, &story.facts)
                     : bake_report_text(description, arguments.folder, &story.facts));
   console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", read_seconds, bake_seconds,
                            write_seconds));

@@ -8,6 +8,7 @@
 #include "tilepack/pack/drawn_set.h"
 #include "tilepack/pack/pack_write.h"
 #include "tilepack/tileset/border_agreement.h"
+#include "tilepack/verify/pack_summary.h"
 
 #include <fmt/format.h>
 
@@ -108,7 +109,7 @@ int run_pack(const PackArguments& arguments, Console& console) {
     if (is_packing_field(option.first)) pack.generator.options.push_back(std::move(option));
   write_pack(pack, arguments.folder, progress);
   const PackDescription made = described(pack);
-  console.print(arguments.report_format == "json" ? bake_report_json(made, arguments.folder)
+  console.print(arguments.report_format == "json" ? made_json(made, arguments.folder)
                                                   : bake_report_text(made, arguments.folder));
   return 0;
 }

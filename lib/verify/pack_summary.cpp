@@ -1,14 +1,12 @@
 #include "tilepack/verify/pack_summary.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace tilepack {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using LevelFiles = std::vector<PackDescription::LevelFile>;
 
 constexpr int widest_table = 8; // columns of the layout that still fit a line
@@ -51,12 +49,6 @@ std::uint64_t file_bytes(const PackSummary& summary, const LevelFiles& files) {
     const auto found = summary.file_bytes.find(level.file);
     if (found != summary.file_bytes.end()) bytes += found->second;
   }
-  return bytes;
-}
-
-std::uint64_t all_file_bytes(const PackSummary& summary) {
-  std::uint64_t bytes = 0;
-  for (const auto& [file, size] : summary.file_bytes) bytes += size;
   return bytes;
 }
 
@@ -153,66 +145,13 @@ std::string mapping_text(const Pack& pack) {
                      size.width * pack.tile_size.width, size.height * pack.tile_size.height);
 }
 
-Json maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
-               const std::vector<LevelFiles>& files) {
-  Json list = Json::array();
-  for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
-    Json levels = Json::array();
-    for (const auto& level : files[m]) {
-      const auto found = summary.file_bytes.find(level.file);
-      levels.push_back({{"file", level.file},
-                        {"size", {level.size.width, level.size.height}},
-                        {"bytes", found == summary.file_bytes.end() ? Json(nullptr) : Json(found->second)}});
-    }
-    list.push_back({{"name", maps[m].name},
-                    {"role", name_of(maps[m].role)},
-                    {"encoding", name_of(maps[m].encoding)},
-                    {"depth", name_of(maps[m].depth)},
-                    {"channels", maps[m].channels},
-                    {"levels", std::move(levels)}});
-    for (const RoundTrip& trip : maps[m].round_trips)
-      list.back()["round_trip_psnr"][std::string(name_of(trip.filter))] =
-          trip.psnr ? Json(*trip.psnr) : Json(nullptr);
-  }
-  return list;
-}
-
-Json tiles_json(const Pack& pack) {
-  Json list = Json::array();
-  std::vector<const Cell*> cell_of(static_cast<std::size_t>(tile_count(pack.tiles)), nullptr);
-  for (const Cell& cell : pack.layout.cells) cell_of[static_cast<std::size_t>(cell.tile)] = &cell;
-  for (int tile = 0; tile < tile_count(pack.tiles); ++tile) {
-    Json json{{"id", tile}};
-    if (const auto* edges = std::get_if<std::vector<EdgeTile>>(&pack.tiles)) {
-      const EdgeTile& t = (*edges)[static_cast<std::size_t>(tile)];
-      json.update({{"north", t.north}, {"east", t.east}, {"south", t.south}, {"west", t.west}});
-    } else {
-      const CornerTile& t = std::get<std::vector<CornerTile>>(pack.tiles)[static_cast<std::size_t>(tile)];
-      json.update({{"nw", t.nw}, {"ne", t.ne}, {"sw", t.sw}, {"se", t.se}});
-    }
-    if (const Cell* cell = cell_of[static_cast<std::size_t>(tile)])
-      json.update({{"column", cell->column}, {"row", cell->row}});
-    list.push_back(std::move(json));
-  }
-  return list;
-}
-
-Json seams_json(const SeamFigures& seams) {
-  Json worst = Json::array();
-  for (const BorderStep& border : seams.worst)
-    worst.push_back({{"tile", border.tile},
-                     {"side", name_of(border.side)},
-                     {"neighbour", border.neighbour},
-                     {"ratio", border.ratio},
-                     {"window", border.window},
-                     {"window_at", border.window_at}});
-  return {{"pairs", seams.pairs},
-          {"seam", seams.seam},
-          {"window_texels", seam_window},
-          {"worst", std::move(worst)}};
-}
-
 } // namespace
+
+std::uint64_t bytes_on_disk(const PackSummary& summary) {
+  std::uint64_t bytes = 0;
+  for (const auto& [file, size] : summary.file_bytes) bytes += size;
+  return bytes;
+}
 
 std::uint64_t bytes_in_memory(const Pack& pack, const PackDescription& description) {
   return bytes_of(pack.maps, description.map_files) +
@@ -229,6 +168,14 @@ double bytes_stored_whole(const Pack& pack) {
   double bytes = 0;
   for (const PackedMap& map : pack.maps) bytes += texels * map.channels * bytes_a_channel(map.depth);
   return bytes;
+}
+
+std::string figures_text(const SetFigures& figures) {
+  return fmt::format(
+      "{:.0f} % of the sample shown, as varied as {:.1f} tiles; steps across cuts {:.1f} (95 % "
+      "below {:.1f}), in the sample {:.1f}, across borders {:.1f}",
+      figures.coverage * 100, figures.distinct_tiles, figures.cut_mean, figures.cut_p95, figures.sample_step,
+      figures.border_mean);
 }
 
 std::string summary_text(const PackSummary& summary) {
@@ -258,8 +205,9 @@ std::string summary_text(const PackSummary& summary) {
   const double whole = bytes_stored_whole(pack);
   text += fmt::format("size      {} in {} files; {} in memory, uncompressed; a texture of the virtual size "
                       "{} ({:.4g} times)\n",
-                      bytes_text(static_cast<double>(all_file_bytes(summary))), summary.file_bytes.size(),
+                      bytes_text(static_cast<double>(bytes_on_disk(summary))), summary.file_bytes.size(),
                       bytes_text(in_memory), bytes_text(whole), in_memory > 0 ? whole / in_memory : 0);
+  if (pack.synthesis) text += fmt::format("synthesis {}\n", figures_text(*pack.synthesis));
   if (summary.seams) text += seams_text(*summary.seams);
   text += fmt::format("made by   {} {}, seed {}\n", pack.generator.name, pack.generator.version,
                       pack.generator.seed);
@@ -270,54 +218,6 @@ std::string summary_text(const PackSummary& summary) {
   }
   if (!options.empty()) text += "          " + options + "\n";
   return text;
-}
-
-std::string summary_json(const PackSummary& summary) {
-  const PackDescription& description = summary.description;
-  const Pack& pack = description.pack;
-  const bool edge = edge_colored(pack);
-  Json colors = edge ? Json{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
-                     : Json{{"corner", pack.colors.corner}};
-  Json options = Json::object();
-  for (const auto& [name, value] : pack.generator.options) options[name] = value;
-  const std::uint64_t in_memory = bytes_in_memory(pack, description);
-  Json json{
-      {"pack", summary.subject},
-      {"tile_size", {pack.tile_size.width, pack.tile_size.height}},
-      {"coloring", edge ? "edge" : "corner"},
-      {"colors", std::move(colors)},
-      {"layout",
-       {{"kind", name_of(pack.layout.kind)}, {"columns", pack.layout.columns}, {"rows", pack.layout.rows}}},
-      {"tiles", tiles_json(pack)},
-      {"maps", maps_json(summary, pack.maps, description.map_files)},
-      {"mapping",
-       {{"kind", name_of(pack.mapping.kind)},
-        {"virtual_size", {pack.mapping.size.width, pack.mapping.size.height}}}},
-      {"mips", {{"mode", name_of(pack.mip_mode)}, {"levels", pack.tile_levels}, {"guard", pack.guard}}},
-      {"bytes",
-       {{"files", all_file_bytes(summary)},
-        {"file_count", summary.file_bytes.size()},
-        {"memory", in_memory},
-        {"stored_whole", bytes_stored_whole(pack)}}},
-      {"generator",
-       {{"name", pack.generator.name},
-        {"version", pack.generator.version},
-        {"seed", pack.generator.seed},
-        {"options", std::move(options)}}}};
-  if (pack.layout.kind == LayoutKind::rotated) {
-    const RotatedGrid& grid = pack.layout.rotated;
-    json["layout"]["rotated"] = {{"scheme", formula(grid.scheme)},
-                                 {"angle", angle_in_degrees(grid.scheme)},
-                                 {"gutter", grid.gutter},
-                                 {"matching", name_of(grid.matching)}};
-  }
-  if (pack.corner_pack)
-    json["corner_pack"] = {{"columns", pack.corner_pack->columns},
-                           {"rows", pack.corner_pack->rows},
-                           {"width", pack.corner_pack->width},
-                           {"maps", maps_json(summary, pack.corner_pack->maps, description.corner_files)}};
-  if (summary.seams) json["seams"] = seams_json(*summary.seams);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace tilepack

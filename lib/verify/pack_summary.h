@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/pack/pack_json.h"
+#include "tilepack/verify/bake_verdict.h"
 #include "tilepack/verify/seams.h"
 
 #include <cstdint>
@@ -25,7 +26,18 @@ std::uint64_t bytes_in_memory(const Pack& pack, const PackDescription& descripti
 /// double.
 double bytes_stored_whole(const Pack& pack);
 
+/// Bytes of the files that are there.
+std::uint64_t bytes_on_disk(const PackSummary& summary);
+
+/// Figures of synthesis that tell how good a set is, in a line without its end. Steps are RMS differences in
+/// 8-bit units, as in SetFigures.
+std::string figures_text(const SetFigures& figures);
+
 std::string summary_text(const PackSummary& summary);
 std::string summary_json(const PackSummary& summary);
+
+/// What bake and pack say in JSON of the pack they made in `folder`; with `facts`, how good its set is.
+std::string made_json(const PackDescription& made, const std::string& folder,
+                      const BakeFacts* facts = nullptr);
 
 } // namespace tilepack

@@ -54,6 +54,40 @@ class Inspect(CommandCase):
         self.assertEqual(len(summary["seams"]["worst"]), 3)
         self.assertEqual(len(self.summary("--worst", 7)["seams"]["worst"]), 7)
 
+    def test_figures_of_synthesis(self):
+        stored = self.read_json("pack/pack.json")
+        self.assertEqual(self.summary()["synthesis"], stored["synthesis"])
+        line = next(l for l in self.run_tilepack("inspect", "pack").stdout.splitlines() if l.startswith("synthesis "))
+        figures = stored["synthesis"]
+        self.assertEqual(
+            line, f"synthesis {100 * figures['coverage']:.0f} % of the sample shown, as varied as "
+            f"{figures['distinct_tiles']:.1f} tiles; steps across cuts {figures['cut_mean']:.1f} (95 % below "
+            f"{figures['cut_p95']:.1f}), in the sample {figures['sample_step']:.1f}, across borders "
+            f"{figures['border_mean']:.1f}")
+        del stored["synthesis"]  # as of tiles drawn by hand
+        self.write_json("pack/pack.json", stored)
+        self.assertNotIn("synthesis", self.summary())
+        self.assertNotIn("synthesis", self.run_tilepack("inspect", "pack").stdout)
+
+    def test_bake_says_the_same(self):
+        for arguments in (("--set", "sequential", "--scheme", "2,2"), ("--interior", "quilt", "--corner-pack")):
+            with self.subTest(arguments):
+                done = self.run_tilepack("bake", "sample.png", "-o", "pack", "--tile-size", 16, "--virtual-size", 8,
+                                         "--effort", 0, *arguments, "--report-format", "json")
+                made, summary = json.loads(done.stdout), self.summary()
+                self.assertEqual(made.get("rotated"), summary["layout"].get("rotated"))
+                corners = summary.get("corner_pack")
+                if corners:
+                    del corners["maps"]
+                self.assertEqual(made.get("corner_pack"), corners)
+                self.assertEqual("rotated" in made, "--scheme" in arguments)
+                self.assertEqual("corner_pack" in made, "--corner-pack" in arguments)
+                for one, other in zip(made["maps"], summary["maps"], strict=True):
+                    del other["levels"]
+                    self.assertEqual(one, other)
+                for name, value in summary["synthesis"].items():
+                    self.assertEqual(made["synthesis"][name], value)
+
     def test_text(self):
         done = self.run_tilepack("inspect", "pack/pack.json")
         for part in ("36 of 32 x 32 texels, 2 horizontal and 3 vertical edge colors", "tile-index, 9 x 4 cells",
