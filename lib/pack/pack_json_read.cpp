@@ -2,6 +2,8 @@
 #include "tilepack/image/wrap.h"
 #include "tilepack/layout/array_layout.h"
 #include "tilepack/layout/rotated_lattice.h"
+#include "tilepack/layout/surroundings.h"
+#include "tilepack/mip/border_keys.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/json_cursor.h"
 #include "tilepack/pack/pack_json.h"
@@ -127,7 +129,24 @@ Layout read_array(const JsonCursor& value, int tiles, Size tile_size) {
 }
 
 // Origin and angle follow from the scheme; a file where they differ was not written for this sampler.
-Layout read_rotated(const JsonCursor& value, int tiles, Size tile_size) {
+// Whether the tiles on both sides of every border of the torus fit.
+bool neighbours_match(const Layout& rotated, const TileColors& colors) {
+  const std::vector<BorderKeys> keys = border_keys(colors);
+  const auto side = [&](int tile, BorderKeys::Side which) {
+    return keys[static_cast<std::size_t>(tile)].sides[which];
+  };
+  const std::vector<Surroundings> around = packed_surroundings(rotated);
+  for (int tile = 0; tile < static_cast<int>(around.size()); ++tile) {
+    const Surroundings& round = around[static_cast<std::size_t>(tile)];
+    if (side(tile, BorderKeys::east) != side(round.e, BorderKeys::west) ||
+        side(tile, BorderKeys::south) != side(round.s, BorderKeys::north))
+      return false;
+  }
+  return true;
+}
+
+Layout read_rotated(const JsonCursor& value, const TileColors& colors, Size tile_size) {
+  const int tiles = tile_count(colors);
   value.only({"kind", "n", "k", "squares", "gutter", "size", "matching", "cells"});
   constexpr int largest_n = 64; // most_tiles
   constexpr int largest_side = 65536;
@@ -147,8 +166,7 @@ Layout read_rotated(const JsonCursor& value, int tiles, Size tile_size) {
   layout.columns = lattice.columns();
   layout.rows = lattice.rows();
   layout.rotated = {scheme, value.member("gutter").small_integer(0, tile_size.width),
-                    read_size(value.member("size"), largest_side),
-                    named(value.member("matching"), Matching::not_found)};
+                    read_size(value.member("size"), largest_side), Matching::not_found};
   layout.cells.push_back({0, 0, 0});
   const Size size = layout.rotated.size;
   // The corner of the tile in a cell at (0, 0): what the gutter adds to every origin.
@@ -173,12 +191,17 @@ Layout read_rotated(const JsonCursor& value, int tiles, Size tile_size) {
       origin.fail(fmt::format("{} is no place of the scheme {}", origin.shown(), formula(scheme)));
     layout.cells.push_back({tile, column, row});
   });
+  if (const auto matching = value.find("matching"))
+    layout.rotated.matching = named(*matching, Matching::not_found);
+  else if (neighbours_match(layout, colors)) // packs of before the field was written
+    layout.rotated.matching = Matching::found;
   return layout;
 }
 
-Layout read_layout(const JsonCursor& value, int tiles, Size tile_size) {
+Layout read_layout(const JsonCursor& value, const TileColors& colors, Size tile_size) {
+  const int tiles = tile_count(colors);
   const auto kind = named(value.member("kind"), LayoutKind::array);
-  if (kind == LayoutKind::rotated) return read_rotated(value, tiles, tile_size);
+  if (kind == LayoutKind::rotated) return read_rotated(value, colors, tile_size);
   if (kind == LayoutKind::array) return read_array(value, tiles, tile_size);
   return read_grid(value, kind, tiles);
 }
@@ -243,7 +266,7 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
     PackedMap map;
     if (textures.layout.kind == LayoutKind::rotated) {
       value.only({"name", "role", "encoding", "depth", "channels", "levels", "round_trip_psnr"});
-      map.round_trips = read_round_trips(value.member("round_trip_psnr"));
+      if (const auto trips = value.find("round_trip_psnr")) map.round_trips = read_round_trips(*trips);
     } else {
       value.only({"name", "role", "encoding", "depth", "channels", "levels"});
     }
@@ -337,7 +360,10 @@ CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vect
   const int rows = pack.colors.vertical * pack.colors.vertical;
   packed.columns = value.member("columns").small_integer(columns, columns);
   packed.rows = value.member("rows").small_integer(rows, rows);
-  packed.width = value.member("width").number(0, 0.5 * std::min(pack.tile_size.width, pack.tile_size.height));
+  const auto width = value.find("width");
+  if (!width)
+    value.fail("the field \"width\" is missing: how far the pack holds was not measured; bake it again");
+  packed.width = width->number(0, 0.5 * std::min(pack.tile_size.width, pack.tile_size.height));
   Layout grid;
   grid.columns = columns;
   grid.rows = rows;
@@ -385,7 +411,7 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   const auto coloring = static_cast<Coloring>(root.member("coloring").one_of({"edge", "corner"}));
   pack.colors = read_colors(root.member("colors"), coloring);
   pack.tiles = read_tiles(root.member("tiles"), coloring, pack.colors);
-  pack.layout = read_layout(root.member("layout"), tile_count(pack.tiles), pack.tile_size);
+  pack.layout = read_layout(root.member("layout"), pack.tiles, pack.tile_size);
   read_mips(root.member("mips"), pack);
   std::set<std::string> used{"pack.json"};
   pack.maps =

@@ -101,6 +101,7 @@ std::string grid_text(const Pack& pack) {
 
 std::string maps_text(const PackSummary& summary, const std::vector<PackedMap>& maps,
                       const std::vector<LevelFiles>& files) {
+  const bool turned = summary.description.pack.layout.kind == LayoutKind::rotated;
   std::string text;
   for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
     if (files[m].empty()) continue;
@@ -118,6 +119,8 @@ std::string maps_text(const PackSummary& summary, const std::vector<PackedMap>& 
           trip.filter == ResampleFilter::bilinear ? "            stored turned and read back: " : ", ",
           name_of(trip.filter), trip.psnr ? fmt::format("{:.2f} dB", *trip.psnr) : "exact");
     if (!map.round_trips.empty()) text += "\n";
+    if (map.round_trips.empty() && turned)
+      text += "            stored turned; what that loses was not measured\n";
   }
   return text;
 }

@@ -61,6 +61,13 @@ class PackFiles(CommandCase):
         self.refuses(good.replace("color_0.png", "/etc/passwd"), ["maps[0].levels[0].file"])
         self.refuses(good.replace("color_0.png", "..\\\\sample.png"), ["maps[0].levels[0].file"])
 
+    def test_a_corner_pack_that_was_not_measured(self):
+        self.run_tilepack("bake", "sample.png", "-o", "corners", *SMALL, "--interior", "quilt", "--corner-pack")
+        pack = self.read_json("corners/pack.json")
+        del pack["corner_pack"]["width"]
+        self.write_json("corners/pack.json", pack)
+        self.refused("inspect", "corners", code=3, saying=("corner_pack", '"width" is missing', "bake it again"))
+
     def test_an_image_is_no_pack(self):
         self.noise_png("photo.png")
         for verb in ("inspect", "validate"):

@@ -113,6 +113,20 @@ class Pack(CommandCase):
         self.assertEqual(seen["maps"][0]["round_trip_psnr"], psnr)
         self.assertEqual(seen["layout"]["rotated"]["matching"], "found")
 
+        # Packs of before these fields were written.
+        del stored["layout"]["matching"], stored["maps"][0]["round_trip_psnr"]
+        self.write_json("out/pack.json", stored)
+        self.run_tilepack("validate", "out")
+        seen = json.loads(self.run_tilepack("inspect", "out", "--format", "json").stdout)
+        self.assertEqual(seen["layout"]["rotated"]["matching"], "found")
+        self.assertNotIn("round_trip_psnr", seen["maps"][0])
+        self.assertIn("not measured", self.run_tilepack("inspect", "out").stdout)
+        cells = stored["layout"]["cells"]
+        cells[1]["origin"], cells[2]["origin"] = cells[2]["origin"], cells[1]["origin"]
+        self.write_json("out/pack.json", stored)
+        seen = json.loads(self.run_tilepack("inspect", "out", "--format", "json").stdout)
+        self.assertEqual(seen["layout"]["rotated"]["matching"], "not-found")
+
         # Side by side the same tiles are copied, and nothing is lost.
         text = self.pack(*names, "--layout", "rotated", "--mapping", "index").stdout
         self.assertIn("lanczos exact", text)

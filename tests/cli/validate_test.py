@@ -143,8 +143,6 @@ class Validate(CommandCase):
         expect("TP106", ["layout", "squares"], 2)
         expect("TP106", ["layout", "size"], [92, 92])
         expect("TP105", ["layout", "matching"], "perhaps")
-        expect("TP102", ["layout", "matching"], None)
-        expect("TP106", ["maps", 0, "round_trip_psnr"], None)
         expect("TP102", ["maps", 0, "round_trip_psnr", "lanczos"], None)
         expect("TP104", ["maps", 0, "round_trip_psnr", "lanczos"], "30 dB")
         expect("TP106", ["tile_size"], [16, 8])
