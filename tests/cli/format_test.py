@@ -1,8 +1,11 @@
 """Samples packs by what lib/pack/FORMAT.md says alone, and compares with tilepack render."""
 
+import json
+import os
+import re
 import unittest
 
-from command import CommandCase
+from command import SOURCE, CommandCase
 from png_image import read_png
 
 M32, M64 = 2**32 - 1, 2**64 - 1
@@ -102,6 +105,36 @@ class Format(CommandCase):
                 for j in range(height):
                     expected = [v for i in range(width) for v in sampler.texel(x + i, y + j)]
                     self.assertEqual(rows[j], expected, f"row {j}")
+
+    def test_the_examples_of_the_page(self):
+        with open(os.path.join(SOURCE, "lib/pack/FORMAT.md"), encoding="utf-8") as stream:
+            page = stream.read().split("## Example", 1)[1]
+        # An ellipsis stands for entries left out.
+        corner, edge = (json.loads(re.sub(r",\s*…", "", text)) for text in re.findall(r"```json\n(.*?)```", page, re.DOTALL))
+        sample = self.noise_png("sample.png", 128, 128)
+        for example, options in ((corner, ()), (edge, ("--coloring", "edge"))):
+            self.run_tilepack("bake", sample, "-o", "out", "--effort", 0, *options)
+            written = self.read_json("out/pack.json")
+            if example is corner:
+                self.assertEqual(list(example), list(written))
+            self.shown_in(example, written, "pack.json")
+
+    def shown_in(self, example, written, where):
+        """Every field and item of the example stands in what was written, figures of synthesis apart."""
+        self.assertIs(type(example), type(written), where)
+        if isinstance(example, dict):
+            for name, value in example.items():
+                self.assertIn(name, written, where)
+                if "synthesis" not in where:
+                    self.shown_in(value, written[name], f"{where}: {name}")
+        elif where.endswith(": maps"):
+            for one, other in zip(example, written, strict=True):
+                self.shown_in(one, other, where)
+        elif isinstance(example, list):
+            for item in example:
+                self.assertIn(item, written, where)
+        else:
+            self.assertEqual(example, written, where)
 
     def test_grid_cells_follow_the_closed_form(self):
         self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", "--tile-size", 8, "--effort", 0,
