@@ -60,7 +60,7 @@ int color_channels(int channels) {
 }
 
 template <typename F>
-void for_each_block(std::vector<float>& values, std::size_t multiple, F&& f) {
+void for_each_block(Texels& values, std::size_t multiple, F&& f) {
   const std::size_t blocks = values.size() / multiple;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks, 1 << 14), [&](const auto& range) {
     f(std::span(values).subspan(range.begin() * multiple, range.size() * multiple));

@@ -14,15 +14,21 @@ bool inside(Size size, Rect r) {
 
 } // namespace
 
-Image::Image(Size size, int channels, std::vector<float> texels)
+Image::Image(Size size, int channels, Texels texels)
     : size_in_texels(size), channel_count(channels), values(std::move(texels)) {
   if (values.size() != row_length() * static_cast<std::size_t>(size.height))
     throw std::invalid_argument("an image has width * height * channels values");
 }
 
+Image Image::unset(Size size, int channels) {
+  return Image(size, channels,
+               Texels(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) *
+                      static_cast<std::size_t>(channels)));
+}
+
 Image crop(const Image& image, Rect rect) {
   if (!inside(image.size(), rect)) throw std::out_of_range("crop outside the image");
-  Image result(rect.width, rect.height, image.channels());
+  Image result = Image::unset({rect.width, rect.height}, image.channels());
   if (result.empty()) return result;
   for (int y = 0; y < rect.height; ++y) {
     const auto from = image.row(rect.y + y).subspan(static_cast<std::size_t>(rect.x * image.channels()));

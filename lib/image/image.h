@@ -1,8 +1,9 @@
 #pragma once
 
+#include "tilepack/image/texel_memory.h"
+
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace tilepack {
 
@@ -39,7 +40,10 @@ public:
 
   /// Takes over row-major, interleaved values, width * height * channels of them (std::invalid_argument
   /// otherwise).
-  Image(Size size, int channels, std::vector<float> texels);
+  Image(Size size, int channels, Texels texels);
+
+  /// Values unset, for whoever writes all of them.
+  static Image unset(Size size, int channels);
 
   int width() const { return size_in_texels.width; }
   int height() const { return size_in_texels.height; }
@@ -57,8 +61,8 @@ public:
   std::span<float> row(int y) { return {values.data() + offset(0, y), row_length()}; }
   std::span<const float> row(int y) const { return {values.data() + offset(0, y), row_length()}; }
 
-  std::vector<float>& data() { return values; }
-  const std::vector<float>& data() const { return values; }
+  Texels& data() { return values; }
+  const Texels& data() const { return values; }
 
   bool operator==(const Image&) const = default;
 
@@ -75,7 +79,7 @@ private:
 
   Size size_in_texels;
   int channel_count = 0;
-  std::vector<float> values;
+  Texels values;
 };
 
 /// The part of `image` inside `rect`, which must lie within it (std::out_of_range otherwise).

@@ -93,7 +93,7 @@ Source open(const std::filesystem::path& file, ImageFormat format) {
 }
 
 // Dividing, not multiplying by a rounded reciprocal: 255 codes of 8 bits would differ in their last bit.
-void append_as_floats(std::span<const std::byte> raw, SampleType type, std::vector<float>& to) {
+void append_as_floats(std::span<const std::byte> raw, SampleType type, Texels& to) {
   const auto append = [&]<typename T>(T, auto&& as_float) {
     const std::size_t count = raw.size() / sizeof(T), start = to.size();
     to.resize(start + count);
@@ -126,7 +126,7 @@ void append_as_floats(std::span<const std::byte> raw, SampleType type, std::vect
   }
 }
 
-void check_finite(const Source& source, const std::vector<float>& values, std::size_t from) {
+void check_finite(const Source& source, const Texels& values, std::size_t from) {
   const auto bad = std::find_if(values.begin() + static_cast<std::ptrdiff_t>(from), values.end(),
                                 [](float v) { return !std::isfinite(v); });
   if (bad == values.end()) return;
@@ -171,7 +171,7 @@ Image decode(const Source& source) {
   const std::size_t row_bytes = row_values * size_of(info.samples);
   const int band_rows = rows_per_band(source, row_bytes);
 
-  std::vector<float> values;
+  Texels values;
   values.reserve(row_values * static_cast<std::size_t>(header.size.height)); // address space, not yet memory
   std::vector<std::byte> band(row_bytes * static_cast<std::size_t>(band_rows));
   for (int y = 0; y < header.size.height; y += band_rows) {

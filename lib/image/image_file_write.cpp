@@ -26,7 +26,7 @@ std::size_t value_bytes_of(Depth depth) {
 }
 
 /// The codes of `values`, in the machine's byte order.
-std::vector<std::byte> stored(const std::vector<float>& values, Depth depth) {
+std::vector<std::byte> stored(const Texels& values, Depth depth) {
   const std::size_t value_bytes = value_bytes_of(depth);
   std::vector<std::byte> bytes(values.size() * value_bytes);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, values.size(), 1 << 16), [&](const auto& range) {

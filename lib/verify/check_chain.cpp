@@ -40,7 +40,7 @@ double full_range(const PackedMap& map) {
 Image decoded(Image tile, Encoding encoding, Depth depth) {
   if (encoding == Encoding::linear) return tile;
   if (depth != Depth::u8) return to_linear(tile, encoding);
-  static const std::vector<float> table = [] {
+  static const Texels table = [] {
     Image codes(256, 1, 1);
     for (int i = 0; i < 256; ++i) codes.texel(i, 0)[0] = static_cast<float>(i) / 255.0f;
     return to_linear(codes, Encoding::srgb).data();

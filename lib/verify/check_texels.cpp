@@ -20,7 +20,7 @@ namespace {
 template <typename Good>
 void check_values(const LevelView& view, Rule rule, const char* expected, Good&& good,
                   std::vector<Issue>& issues) {
-  const std::vector<float>& values = view.image->data();
+  const Texels& values = view.image->data();
   std::size_t bad = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i < values.size(); ++i)

@@ -18,8 +18,8 @@ ImageFile read_bytes(const fs::path& file, std::string_view hex) {
   return read_image(file);
 }
 
-std::vector<float> codes(std::initializer_list<int> values) {
-  std::vector<float> result;
+Texels codes(std::initializer_list<int> values) {
+  Texels result;
   for (const int v : values) result.push_back(static_cast<float>(v) / 255.0f);
   return result;
 }

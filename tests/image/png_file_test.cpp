@@ -96,7 +96,7 @@ ImageFile read_elsewhere(const fs::path& file) {
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   REQUIRE(input->open(file.string(), spec, wishes));
   const bool wide = spec.format == OIIO::TypeDesc::UINT16;
-  std::vector<float> values;
+  Texels values;
   const std::size_t count =
       static_cast<std::size_t>(spec.image_pixels()) * static_cast<std::size_t>(spec.nchannels);
   if (wide) {
