@@ -2,6 +2,8 @@
 
 #include "tilepack/image/image.h"
 
+#include <span>
+
 namespace tilepack {
 
 /// What the texels of a 2 × 2 box count for.
@@ -14,5 +16,9 @@ enum class Weighting {
 /// keeps the color that clear texels happen to hold out of their neighbours. The sums are taken as
 /// (nw + ne) + (sw + se).
 Image halved(const Image& image, Weighting weighting);
+
+/// One row of it, of two rows of as many channels; `to` has half their length.
+void halve_rows(std::span<const float> north, std::span<const float> south, int channels, Weighting weighting,
+                std::span<float> to);
 
 } // namespace tilepack

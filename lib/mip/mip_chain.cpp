@@ -1,14 +1,16 @@
 #include "tilepack/mip/mip_chain.h"
 
 #include "tilepack/mip/alpha_coverage.h"
-#include "tilepack/mip/downsample.h"
+#include "tilepack/mip/box_levels.h"
 #include "tilepack/mip/least_squares.h"
 #include "tilepack/mip/normal_variance.h"
 #include "tilepack/mip/shared_border.h"
 #include "tilepack/mip/value_space.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -58,14 +60,13 @@ void sanitize(const TileColors& colors, Size size, MipMode mode, Weighting weigh
 // Level → tile id → values that may be averaged further, level 0 left out.
 using Levels = std::vector<std::vector<Image>>;
 
-// The levels of one tile, level 0 left out. Means of unit vectors keep their length here, else each level
-// would weigh its children differently from their area.
-std::vector<Image> box_levels(const TileMap& map, std::size_t id, std::size_t levels) {
-  const Weighting weighting = weighting_of(map);
-  std::vector<Image> boxes(levels);
-  boxes[1] = halved_decoded(map.tiles[id], map);
-  for (std::size_t level = 2; level < levels; ++level) boxes[level] = halved(boxes[level - 1], weighting);
-  return boxes;
+Image encoded(Image tile, const TileMap& map) {
+  constexpr std::size_t values_a_task = std::size_t{1} << 16;
+  const std::size_t rows = std::max<std::size_t>(1, values_a_task / tile.row(0).size());
+  tbb::parallel_for(tbb::blocked_range<int>(0, tile.height(), rows), [&](const auto& some) {
+    for (int y = some.begin(); y < some.end(); ++y) encode(tile.row(y), map, tile.row(y));
+  });
+  return tile;
 }
 
 // The normals whose spread the roughness `map` takes up, or null.
@@ -123,28 +124,27 @@ std::vector<TileMap> coarser_levels(const TileSet& set, int map_index, const Mip
 
   const Weighting weighting = weighting_of(map);
   const bool keeps_alpha = options.alpha_coverage > 0 && weighting == Weighting::by_alpha;
-  // Levels that nothing more is done to are encoded while the tile is still in the processor's cache.
-  const auto finished = [&](int level) {
-    return !keeps_alpha && (options.mode == MipMode::box || exact_through_guard(set.guard, level));
-  };
+  // Levels that nothing more is done to are encoded at once: those down to `finished`.
+  int finished = 0;
+  while (finished + 1 < levels && !keeps_alpha &&
+         (options.mode == MipMode::box || exact_through_guard(set.guard, finished + 1)))
+    ++finished;
   Levels boxes(as_size(levels), std::vector<Image>(map.tiles.size()));
   const TileMap* const normals = normals_for(map, set, options);
   tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
-    std::vector<Image> own = box_levels(map, id, as_size(levels));
-    if (normals != nullptr) {
-      const std::vector<Image> means = box_levels(*normals, id, as_size(levels));
+    std::vector<Image> own = box_levels(map.tiles[id], map, levels, finished);
+    if (normals != nullptr) { // roughness is stored as it is averaged
+      const std::vector<Image> means = box_levels(normals->tiles[id], *normals, levels, 0);
       for (std::size_t level = 1; level < own.size(); ++level) add_normal_variance(own[level], means[level]);
     }
     for (int level = 1; level < levels; ++level)
-      if (finished(level))
-        coarser[as_size(level - 1)].tiles[id] = encoded(std::move(own[as_size(level)]), map);
-      else
-        boxes[as_size(level)][id] = std::move(own[as_size(level)]);
+      (level <= finished ? coarser[as_size(level - 1)].tiles : boxes[as_size(level)])[id] =
+          std::move(own[as_size(level)]);
   });
 
   const PackNeighbours neighbours = layout ? pack_neighbours(*layout) : PackNeighbours{};
   tbb::parallel_for(1, levels, [&](int level) {
-    if (finished(level) || exact_through_guard(set.guard, level)) return;
+    if (level <= finished || exact_through_guard(set.guard, level)) return;
     std::vector<Image>& tiles = boxes[as_size(level)];
     if (options.mode == MipMode::least_squares)
       fit_borders(set.tiles, neighbours, options.jump_weight, weighting, tiles);
@@ -158,9 +158,8 @@ std::vector<TileMap> coarser_levels(const TileSet& set, int map_index, const Mip
                       [&](int level) { keep_alpha_coverage(boxes[as_size(level)], threshold, coverage); });
   }
   tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
-    for (int level = 1; level < levels; ++level)
-      if (!finished(level))
-        coarser[as_size(level - 1)].tiles[id] = encoded(std::move(boxes[as_size(level)][id]), map);
+    for (int level = finished + 1; level < levels; ++level)
+      coarser[as_size(level - 1)].tiles[id] = encoded(std::move(boxes[as_size(level)][id]), map);
   });
   return coarser;
 }

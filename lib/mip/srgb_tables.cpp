@@ -1,19 +1,12 @@
 #include "tilepack/mip/srgb_tables.h"
 
 #include "tilepack/image/encoding.h"
-#include "tilepack/mip/downsample.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace tilepack {
 namespace {
@@ -54,67 +47,56 @@ const EncodeTable& encode_table() {
       const double middle = at(bits + (1u << (EncodeCurve::piece_bits - 1)));
       const double end = at(bits + (1u << EncodeCurve::piece_bits));
       t[i] = {static_cast<float>(begin), static_cast<float>(4 * middle - 3 * begin - end),
-              static_cast<float>(2 * begin - 4 * middle + 2 * end)};
+              static_cast<float>(2 * begin - 4 * middle + 2 * end), 0.0f};
     }
     return t;
   }();
   return table;
 }
 
-// Values off the table are rare in pictures, and done exactly afterwards.
-void encode_block(float* values, std::size_t count, const SrgbKernel& kernel, const EncodeCurve& curve) {
-  std::array<float, SrgbKernel::block> codes;
-  if (kernel.encode(values, codes.data(), count, curve) != 0)
-    for (std::size_t i = 0; i < count; ++i)
-      if (!(values[i] >= table_begin && values[i] < 1.0f))
-        codes[i] = static_cast<float>(linear_to_srgb(static_cast<double>(values[i])));
-  std::copy_n(codes.begin(), count, values);
+// linear_to_srgb(), to the bit, with the ends of the range, where pictures have much, at less cost.
+float encoded_exactly(float linear) {
+  constexpr double linear_segment_end = 0.0031308;
+  const double v = static_cast<double>(linear);
+  if (v >= 0 && v <= linear_segment_end) return static_cast<float>(v * 12.92);
+  static const float white = static_cast<float>(linear_to_srgb(1.0));
+  return linear == 1.0f ? white : static_cast<float>(linear_to_srgb(v));
 }
-
-// Many texels a task: large against what a task costs, small against a tile.
-constexpr std::size_t values_a_task = std::size_t{1} << 16;
 
 } // namespace
 
-Image halved_from_srgb(const Image& image, const SrgbKernel& kernel) {
-  Image result(image.width() / 2, image.height() / 2, image.channels());
-  const DecodeTable& linear = decode_table();
-  const auto channels = static_cast<std::size_t>(image.channels());
-  const std::size_t length = image.row(0).size();
-  using Range = tbb::blocked_range<int>;
-  const Range rows(0, result.height(), std::max<std::size_t>(1, values_a_task / length));
-  std::atomic<bool> strayed = false;
-  tbb::parallel_for(rows, [&](const Range& some) {
-    for (int y = some.begin(); y < some.end() && !strayed; ++y)
-      if (kernel.halve(image.row(2 * y).data(), image.row(2 * y + 1).data(), linear.data(),
-                       result.row(y).data(), static_cast<std::size_t>(result.width()), channels) != 0)
-        strayed = true;
-  });
-  if (strayed) return halved(to_linear(image, Encoding::srgb), Weighting::plain);
-  return result;
+bool halve_srgb_codes(std::span<const float> north, std::span<const float> south, int channels,
+                      std::span<float> to, const SrgbKernel& kernel) {
+  return kernel.halve(north.data(), south.data(), decode_table().data(), to.data(),
+                      to.size() / static_cast<std::size_t>(channels),
+                      static_cast<std::size_t>(channels)) == 0;
 }
 
-Image halved_from_srgb(const Image& image) {
-  return halved_from_srgb(image, best_kernel());
+bool halve_srgb_codes(std::span<const float> north, std::span<const float> south, int channels,
+                      std::span<float> to) {
+  return halve_srgb_codes(north, south, channels, to, best_kernel());
 }
 
-void encode_srgb(Image& image, const SrgbKernel& kernel) {
+void encode_srgb(std::span<const float> linear, int channels, std::span<float> to, const SrgbKernel& kernel) {
   const EncodeCurve curve{static_cast<int>(first_bits), encode_table().data()};
-  const auto channels = static_cast<std::size_t>(image.channels());
-  auto& values = image.data();
-  std::vector<float> alpha;
-  if (channels % 2 == 0)
-    for (std::size_t i = channels - 1; i < values.size(); i += channels) alpha.push_back(values[i]);
-  using Range = tbb::blocked_range<std::size_t>;
-  tbb::parallel_for(Range(0, values.size(), values_a_task), [&](const Range& some) {
-    for (std::size_t i = some.begin(); i < some.end(); i += SrgbKernel::block)
-      encode_block(values.data() + i, std::min(SrgbKernel::block, some.end() - i), kernel, curve);
-  });
-  for (std::size_t i = 0; i < alpha.size(); ++i) values[(i + 1) * channels - 1] = alpha[i];
+  const auto step = static_cast<std::size_t>(channels);
+  const bool alpha = channels % 2 == 0;
+  static_assert(SrgbKernel::block % 4 == 0); // whole texels, where there is alpha
+  std::array<float, SrgbKernel::block> codes;
+  for (std::size_t at = 0; at < linear.size(); at += codes.size()) {
+    const std::span<const float> values = linear.subspan(at, std::min(codes.size(), linear.size() - at));
+    if (kernel.encode(values.data(), codes.data(), values.size(), curve) != 0)
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (!(values[i] >= table_begin && values[i] < 1.0f) && !(alpha && i % step == step - 1))
+          codes[i] = encoded_exactly(values[i]);
+    if (alpha)
+      for (std::size_t i = step - 1; i < values.size(); i += step) codes[i] = values[i];
+    std::copy_n(codes.begin(), values.size(), to.begin() + static_cast<std::ptrdiff_t>(at));
+  }
 }
 
-void encode_srgb(Image& image) {
-  encode_srgb(image, best_kernel());
+void encode_srgb(std::span<const float> linear, int channels, std::span<float> to) {
+  encode_srgb(linear, channels, to, best_kernel());
 }
 
 } // namespace tilepack

@@ -3,11 +3,21 @@
 #include "tilepack/image/encoding.h"
 #include "tilepack/mip/srgb_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace tilepack {
 namespace {
+
+std::size_t channels_of(const TileMap& map) {
+  return static_cast<std::size_t>(map.tiles.front().channels());
+}
+
+bool holds_vectors(const TileMap& map) {
+  return map.role == Role::normal && channels_of(map) >= 3;
+}
 
 void make_unit(float* n) {
   const double squares =
@@ -20,38 +30,55 @@ void make_unit(float* n) {
   for (int c = 0; c < 3; ++c) n[c] = static_cast<float>(n[c] / length);
 }
 
-void make_unit(Image& tile) {
-  const std::size_t channels = static_cast<std::size_t>(tile.channels());
-  if (channels < 3) return;
-  for (std::size_t i = 0; i < tile.data().size(); i += channels) make_unit(&tile.data()[i]);
+void make_unit(std::span<float> texels, std::size_t channels) {
+  for (std::size_t i = 0; i < texels.size(); i += channels) make_unit(&texels[i]);
+}
+
+bool is_srgb(const TileMap& map) {
+  return map.role == Role::color && map.encoding == Encoding::srgb;
+}
+
+void copy(std::span<const float> from, std::span<float> to) {
+  if (from.data() != to.data()) std::copy(from.begin(), from.end(), to.begin());
 }
 
 } // namespace
 
-Image decoded(const Image& tile, const TileMap& map) {
-  if (map.role == Role::color) return to_linear(tile, map.encoding);
-  Image result = tile;
-  if (map.role != Role::normal) return result;
-  for (float& v : result.data()) v = v * 2.0f - 1.0f;
-  make_unit(result);
-  return result;
-}
-
-Image halved_decoded(const Image& tile, const TileMap& map) {
-  const bool codes = map.role == Role::color && map.encoding == Encoding::srgb && map.depth == Depth::u8;
-  if (codes && tile.channels() % 2 == 1) return halved_from_srgb(tile);
-  return halved(decoded(tile, map), weighting_of(map));
-}
-
-Image encoded(Image tile, const TileMap& map) {
-  if (map.role == Role::color) {
-    if (map.encoding == Encoding::srgb) encode_srgb(tile);
-    return tile;
+void decode(std::span<const float> from, const TileMap& map, std::span<float> to) {
+  const std::size_t channels = channels_of(map);
+  if (map.role == Role::normal) {
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i] * 2.0f - 1.0f;
+    if (holds_vectors(map)) make_unit(to, channels);
+    return;
   }
-  if (map.role != Role::normal) return tile;
-  make_unit(tile);
-  for (float& v : tile.data()) v = v * 0.5f + 0.5f;
-  return tile;
+  copy(from, to);
+  if (!is_srgb(map)) return;
+  const std::size_t colors = channels % 2 == 0 ? channels - 1 : channels; // alpha is linear
+  for (std::size_t i = 0; i < to.size(); i += channels)
+    for (std::size_t c = 0; c < colors; ++c)
+      to[i + c] = static_cast<float>(srgb_to_linear(static_cast<double>(to[i + c])));
+}
+
+void encode(std::span<const float> from, const TileMap& map, std::span<float> to) {
+  if (is_srgb(map)) return encode_srgb(from, static_cast<int>(channels_of(map)), to);
+  copy(from, to);
+  if (map.role != Role::normal) return;
+  if (holds_vectors(map)) make_unit(to, channels_of(map));
+  for (float& v : to) v = v * 0.5f + 0.5f;
+}
+
+void halve_decoded(std::span<const float> north, std::span<const float> south, const TileMap& map,
+                   std::span<float> to) {
+  const int channels = map.tiles.front().channels();
+  if (is_srgb(map) && map.depth == Depth::u8 && halve_srgb_codes(north, south, channels, to)) return;
+  if (!is_srgb(map) && map.role != Role::normal)
+    return halve_rows(north, south, channels, weighting_of(map), to);
+  std::vector<float> decoded(2 * north.size());
+  const auto north_decoded = std::span(decoded).first(north.size());
+  const auto south_decoded = std::span(decoded).last(north.size());
+  decode(north, map, north_decoded);
+  decode(south, map, south_decoded);
+  halve_rows(north_decoded, south_decoded, channels, weighting_of(map), to);
 }
 
 Weighting weighting_of(const TileMap& map) {
