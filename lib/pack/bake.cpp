@@ -52,7 +52,7 @@ constexpr float largest_half = 65504.0f;
 
 void check_values(const SampleMap& map, Depth stored) {
   const float largest = stored == Depth::f16 ? largest_half : largest_value;
-  const std::vector<float>& values = map.image.data();
+  const Texels& values = map.image.data();
   const auto bad =
       std::find_if(values.begin(), values.end(), [&](float v) { return !(std::abs(v) <= largest); });
   if (bad == values.end()) return;

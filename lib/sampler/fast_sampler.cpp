@@ -28,7 +28,9 @@ using Lookup = FastTables::Lookup;
 // permutation_mapping).
 constexpr std::int64_t longest_table = std::int64_t{1} << 20;
 
-constexpr std::size_t parallel_grain = 16384; // samples a task: large against its cost, small against a batch
+// Samples a task, some 50 microseconds: large against what a task costs, small enough that others take over
+// what a thread would do that wakes up late.
+constexpr std::size_t parallel_grain = 4096;
 
 TexelStorage storage_for(const PackedMap& map, bool alpha) {
   if (alpha) return TexelStorage::f32;

@@ -246,12 +246,14 @@ void bench_threads(const Pack& pack, int map, const BenchOptions& options, const
   const Buffers out(sampler.channels(), frame.x.size());
   const SampleBatch batch{frame.x.size(), frame.tile_x.data(), frame.tile_y.data(),
                           frame.x.data(), frame.y.data(),      frame.level.data()};
+  constexpr int frames = 8; // one after another: threads asleep take as long to wake as a good part of one
   const auto seconds = [&](bool parallel) {
     const BenchTime start = bench_time();
-    if (parallel)
-      sampler.sample_parallel(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
-    else
-      sampler.sample(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
+    for (int i = 0; i < frames; ++i)
+      if (parallel)
+        sampler.sample_parallel(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
+      else
+        sampler.sample(batch, Filter::trilinear, Weights::exact, out.span(sampler.channels()));
     const BenchTime end = bench_time();
     return BenchTime{end.wall - start.wall, end.processor - start.processor};
   };
@@ -260,7 +262,7 @@ void bench_threads(const Pack& pack, int map, const BenchOptions& options, const
   bench.memory_bandwidth = triad_bandwidth(options.rounds);
   std::vector<double> ratios, undisturbed, shares;
   // Coordinates and level in, values out; the pack stays in caches.
-  const double bytes = samples_a_frame * 4.0 * (5 + sampler.channels());
+  const double bytes = frames * samples_a_frame * 4.0 * (5 + sampler.channels());
   for (int round = -1; round < options.rounds; ++round) {
     const BenchTime single = seconds(false);
     const BenchTime parallel = seconds(true);
