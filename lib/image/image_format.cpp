@@ -264,7 +264,8 @@ private:
 
 ImageFormat image_format(const std::filesystem::path& path) {
   const FileBytes file(path);
-  if (file.size() == 0) throw Error(ErrorKind::cannot_read, path.string(), "is empty (0 bytes); copy or export it again");
+  if (file.size() == 0)
+    throw Error(ErrorKind::cannot_read, path.string(), "is empty (0 bytes); copy or export it again");
   std::array<unsigned char, 8> head{};
   file.read(0, std::span(head).first(static_cast<std::size_t>(std::min<std::uint64_t>(8, file.size()))));
   const auto begins = [&](std::string_view magic) {
