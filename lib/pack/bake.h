@@ -19,8 +19,15 @@ enum class TileChoice {
 
 /// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
 /// keys of a preset: see pack/bake_fields.h, which holds their names, ranges and help.
-/// The plain struct asks for edge colors; bake_options({}) is what `tilepack bake` starts from, corner colors.
+/// The defaults are those of `tilepack bake`: 2 corner colors in a de Bruijn layout. Edge colors take three
+/// fields together, synth.coloring, synth.colors and layout (tile_index for a complete set).
 struct BakeOptions : PackingOptions {
+  BakeOptions() {
+    layout = LayoutKind::de_bruijn;
+    synth.coloring = Coloring::corner;
+    synth.colors = {0, 0, 2};
+  }
+
   SynthOptions synth;
   bool fit_tile_size = false; ///< tile sides become whole periods of the sample, near synth.tile_size
   TileChoice set = TileChoice::complete;

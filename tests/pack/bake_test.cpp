@@ -20,6 +20,9 @@ SampleMap sample(const std::string& name, Role role, Depth depth, int channels, 
 
 BakeOptions small_options() {
   BakeOptions options;
+  options.synth.coloring = Coloring::edge;
+  options.synth.colors = {2, 2, 0};
+  options.layout = LayoutKind::tile_index;
   options.synth.tile_size = {16, 16};
   options.synth.effort = 0;
   options.virtual_size = {8, 8};
