@@ -27,7 +27,7 @@ struct ZoneError {
   double mean = 0;            ///< absolute
   double rms = 0;             ///<
   double largest = 0;         ///<
-  std::optional<double> psnr; ///< dB against full scale; absent where rms is 0
+  std::optional<double> psnr; ///< dB against full scale; absent where rms is no more than rounding of doubles
   double neighbours = 0; ///< largest error due to wrong neighbours alone: against the levels as stored, so
                          ///< that neither rounding nor sanitizing counts. 0 means exactly 0
 };

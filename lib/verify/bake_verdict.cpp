@@ -187,6 +187,7 @@ std::string way_to_variety(const BakeFacts& facts) {
   const bool corner = o.coloring == Coloring::corner;
   const ColorCounts& k = o.colors;
   const int more = 1 + (corner ? k.corner : std::min(k.horizontal, k.vertical));
+  if (o.interior == Interior::quilt) return " --interior patch gives every tile an inside of its own.";
   const double held = tiles_in_sample(facts);
   if (held < facts.tiles) return held < fewest_tiles ? "" : " A larger sample or smaller tiles show more.";
   if (more > (corner ? 4 : 8)) return "";
@@ -221,8 +222,9 @@ void judge_variety(const BakeFacts& facts, Remarks& remarks) {
     add(remarks, f.histogram_distance > 0.12 ? Grade::poor : Grade::fair,
         fmt::format(
             "Values are spread otherwise than in the sample, by {:.1f} % of texels: some brightness or "
-            "kind of detail is shown too often. Try another --seed or more --colors.",
-            percent(f.histogram_distance)));
+            "kind of detail is shown too often. Try another --seed{}.",
+            percent(f.histogram_distance),
+            facts.synth.interior == Interior::quilt ? " or --interior patch" : " or more --colors"));
 }
 
 void judge_landmark(const BakeFacts& facts, Remarks& remarks) {

@@ -27,6 +27,16 @@ class Outputs(CommandCase):
         self.write("out/pack.json", '{"name": "something else"}')
         self.refused("bake", sample, "-o", "out", *SMALL, code=CANNOT_WRITE, saying="no readable tile pack")
 
+    def test_files_of_others_in_the_way_of_a_pack(self):
+        self.older_pack()
+        self.write("out/notes.txt", "mine")
+        self.write("out/color_5.png", "mine too")  # the older pack has five levels, tiles of 32 have six
+        self.refused("bake", "sample.png", "-o", "out", *SMALL, "--tile-size", 32, code=CANNOT_WRITE,
+                     saying=("out/color_5.png", "in the way"))
+        self.run_tilepack("bake", "sample.png", "-o", "out", *SMALL, "--seed", 2)
+        with open(self.path("out/notes.txt"), encoding="utf-8") as stream:
+            self.assertEqual(stream.read(), "mine")
+
     def test_the_folder_is_a_file(self):
         sample = self.noise_png("sample.png")
         self.refused("bake", sample, "-o", "sample.png", *SMALL, code=CANNOT_WRITE, saying="no folder")
@@ -140,6 +150,12 @@ class Outputs(CommandCase):
             os.chmod(self.path(name), 0o555)
         for output in ("out", "empty", "new"):
             with self.subTest(output):
+                self.refused("bake", "sample.png", "-o", output, *SMALL, code=CANNOT_WRITE, saying=output,
+                             preexec_fn=drop)
+        # The parent would let the folder be replaced as a whole, which is not what 0o555 says.
+        os.chmod(self.path("."), 0o777)
+        for output in ("out", "empty"):
+            with self.subTest(output, parent="writable"):
                 self.refused("bake", "sample.png", "-o", output, *SMALL, code=CANNOT_WRITE, saying=output,
                              preexec_fn=drop)
         for name in ("out", "empty", "."):

@@ -28,7 +28,7 @@ class Samples(CommandCase):
         for share in (0.01, 0.2, 0.5, 0.99):
             with self.subTest(share):
                 self.bake_refused(self.write("cut.png", whole[:int(len(whole) * share)]), CANNOT_READ,
-                                  ["cut.png", "truncated"])
+                                  ["cut.png", "is truncated: its content goes on after"])
         exr = float_exr(64, 64, lambda x, y: x * 0.1)
         self.bake_refused(self.write("cut.exr", exr[:len(exr) // 2]), CANNOT_READ, ["cut.exr", "truncated or damaged"])
 

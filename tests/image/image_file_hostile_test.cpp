@@ -128,7 +128,12 @@ TEST_CASE("a file cut anywhere is an error, in every format and compression") {
       } catch (const Error& e) {
         threw = true;
         REQUIRE(e.kind() == ErrorKind::cannot_read);
-        REQUIRE_THAT(e.what(), Contains(length == 0 ? "empty" : length < 8 ? "is" : "cut"));
+        // Decoders of EXR check for themselves; the others would fill up what is missing.
+        const bool exr = std::string(variant.format) == "openexr";
+        REQUIRE_THAT(e.what(), Contains(length == 0  ? "is empty"
+                                        : length < 8 ? "is"
+                                        : exr        ? "is truncated or damaged"
+                                                     : "is truncated: its content goes on"));
       }
       REQUIRE(threw);
     }

@@ -149,6 +149,10 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     facts.tiles = 8; // the sequential set
     facts.report.figures.distinct_tiles = 2;
     CHECK(says(facts, Grade::poor, "--colors 3 shows more, in 18 tiles"));
+    facts.synth.interior = Interior::quilt;
+    CHECK(says(facts, Grade::poor, "--interior patch"));
+    CHECK_FALSE(says(facts, Grade::poor, "--colors"));
+    facts.synth.interior = Interior::patch;
     facts.synth.colors = {8, 8, 0};
     facts.sample = {9000, 9000};
     facts.tiles = 4096;
@@ -189,6 +193,11 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
   SECTION("other values than the sample's") {
     facts.report.figures.histogram_distance = 0.2;
     CHECK(says(facts, Grade::poor, "20.0 %"));
+    CHECK(says(facts, Grade::poor, "more --colors"));
+    facts.synth.interior = Interior::quilt;
+    CHECK(says(facts, Grade::poor, "--seed or --interior patch"));
+    facts.report.figures.histogram_distance = 0.1;
+    CHECK(says(facts, Grade::fair, "10.0 %"));
   }
   const BakeVerdict verdict = bake_verdict(facts);
   for (std::size_t i = 1; i < verdict.remarks.size(); ++i) // the worst first
