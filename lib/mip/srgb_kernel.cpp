@@ -8,6 +8,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tilepack/mip/srgb_kernel.cpp"
 #include <hwy/foreach_target.h>
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 // clang-format on
 
@@ -57,8 +58,11 @@ void find_codes(const float* HWY_RESTRICT values, std::uint8_t* HWY_RESTRICT cod
   const std::size_t lanes = hn::Lanes(f);
   Strays found = strays; // in registers
   std::size_t at = 0;
-  for (; at + lanes <= count; at += lanes)
+  for (; at + lanes <= count; at += lanes) {
+    // The next run's, which memory delivers while this one's codes are looked up.
+    hwy::Prefetch(values + at + count);
     hn::StoreU(hn::DemoteTo(bytes, codes_of(hn::LoadU(f, values + at), found)), bytes, codes + at);
+  }
   if (at < count) {
     HWY_ALIGN float rest[hn::MaxLanes(f)] = {}; // 0 is a code
     HWY_ALIGN std::uint8_t rest_codes[hn::MaxLanes(f)];

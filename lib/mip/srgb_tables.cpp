@@ -82,16 +82,18 @@ void encode_srgb(std::span<const float> linear, int channels, std::span<float> t
   const auto step = static_cast<std::size_t>(channels);
   const bool alpha = channels % 2 == 0;
   static_assert(SrgbKernel::block % 4 == 0); // whole texels, where there is alpha
-  std::array<float, SrgbKernel::block> codes;
-  for (std::size_t at = 0; at < linear.size(); at += codes.size()) {
-    const std::span<const float> values = linear.subspan(at, std::min(codes.size(), linear.size() - at));
-    if (kernel.encode(values.data(), codes.data(), values.size(), curve) != 0)
+  std::array<float, SrgbKernel::block> block;
+  const bool in_place = linear.data() == to.data();
+  for (std::size_t at = 0; at < linear.size(); at += block.size()) {
+    const std::span<const float> values = linear.subspan(at, std::min(block.size(), linear.size() - at));
+    float* const codes = in_place || values.size() < block.size() ? block.data() : to.data() + at;
+    if (kernel.encode(values.data(), codes, values.size(), curve) != 0)
       for (std::size_t i = 0; i < values.size(); ++i)
         if (!(values[i] >= table_begin && values[i] < 1.0f) && !(alpha && i % step == step - 1))
           codes[i] = encoded_exactly(values[i]);
     if (alpha)
       for (std::size_t i = step - 1; i < values.size(); i += step) codes[i] = values[i];
-    std::copy_n(codes.begin(), values.size(), to.begin() + static_cast<std::ptrdiff_t>(at));
+    if (codes == block.data()) std::copy_n(codes, values.size(), to.data() + at);
   }
 }
 

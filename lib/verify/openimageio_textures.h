@@ -25,8 +25,9 @@ struct TextureFunctions {
   /// and has tiles of 64 x 64 and box-filtered mips, as maketx makes them.
   TextureMaker (*maker)(Size size, int channels, Depth depth,
                         const std::function<Image(int top, int rows)>& band);
-  /// Makes a texture file of an image file as the program maketx does when told nothing more.
-  void (*maketx)(const std::filesystem::path& image, const std::filesystem::path& texture);
+  /// Makes a texture file of an image file as the program maketx does when told nothing more. Returns the
+  /// seconds that its statistics give for the levels alone, to hundredths; 0 if they give none.
+  double (*maketx)(const std::filesystem::path& image, const std::filesystem::path& texture);
   /// By handle, without anisotropy, with a cache that holds everything.
   TextureLookup (*open)(const std::filesystem::path& file, int channels, Size side);
 };

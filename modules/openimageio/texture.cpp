@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 namespace tilepack {
 namespace {
@@ -103,10 +106,17 @@ TextureMaker texture_maker(Size size, int channels, Depth depth,
   };
 }
 
-void maketx(const std::filesystem::path& image, const std::filesystem::path& texture) {
+double maketx(const std::filesystem::path& image, const std::filesystem::path& texture) {
+  OIIO::ImageSpec config;
+  config.attribute("maketx:runstats", 1);
+  std::ostringstream statistics;
   if (!OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, image.string(), texture.string(),
-                                        OIIO::ImageSpec()))
+                                        config, &statistics))
     throw std::runtime_error(OIIO::geterror());
+  const std::string text = statistics.str();
+  const std::string label = "mip computation:";
+  const std::size_t at = text.find(label);
+  return at == std::string::npos ? 0 : std::strtod(text.c_str() + at + label.size(), nullptr);
 }
 
 TextureLookup open_texture(const std::filesystem::path& file, int channels, Size side) {
