@@ -2,6 +2,7 @@
 #include "tilepack/layout/layout_planner.h"
 #include "tilepack/tileset/sequential_set.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace tilepack;
@@ -25,6 +26,37 @@ TEST_CASE("the planner wastes least, then resamples least") {
   CHECK(padded_texels(5, 128) == 8 * 128 * 128);
   CHECK(padded_texels(5, 100) == 8 * 128 * 128);
   CHECK(padded_texels(16, 64) == 16 * 64 * 64);
+}
+
+TEST_CASE("the planner's plans are those of trying all schemes and sides") {
+  for (const bool power_of_two : {false, true})
+    for (const int gutter : {0, 2})
+      for (const int side : {2, 7, 64})
+        for (int tiles = 1; tiles <= 60; ++tiles) {
+          // Every way to write the count, and the first side that holds it: a turned tile and its gutters
+          // take the root of n² + k² times their own side.
+          std::vector<std::int64_t> wasted;
+          for (const int squares : {1, 2})
+            for (int n = 1; n <= tiles; ++n)
+              for (int k = 0; k <= n; ++k) {
+                if (squares * (n * n + k * k) != tiles) continue;
+                const std::int64_t cell = side + 2 * gutter;
+                std::int64_t height = 1;
+                while (height * height < cell * cell * (n * n + k * k))
+                  height = power_of_two ? 2 * height : height + 1;
+                wasted.push_back(height * height * squares - std::int64_t{tiles} * side * side);
+              }
+          std::sort(wasted.begin(), wasted.end());
+          CAPTURE(tiles, side, gutter, power_of_two);
+          if (wasted.empty()) {
+            CHECK_THROWS_AS(layout_plans({tiles, side, {}, gutter, power_of_two}), Error);
+            continue;
+          }
+          std::vector<std::int64_t> planned;
+          for (const LayoutPlan& plan : layout_plans({tiles, side, {}, gutter, power_of_two}))
+            planned.push_back(plan.wasted);
+          CHECK(planned == wasted);
+        }
 }
 
 TEST_CASE("sides that are powers of two are kept when asked for") {
