@@ -13,14 +13,14 @@ constexpr const char* head = R"(<!doctype html>
 <style>
 body { font: 15px/1.45 sans-serif; max-width: 1320px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff }
 h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em }
-.row { display: flex; flex-wrap: wrap; gap: 1em } .row > * { flex: 1 1 560px; max-width: 640px }
+.row { display: flex; flex-wrap: wrap; gap: 1em; margin: 1em 0 } .row > div, .row > svg { flex: 1 1 560px; max-width: 640px }
 svg { background: #fafafa; border: 1px solid #ddd; width: 100% }
 .title { font: bold 14px sans-serif } .tick { font: 11px sans-serif; fill: #444 } .grid { stroke: #e2e2e2 }
 table { border-collapse: collapse; font-size: 13px } td, th { padding: 2px 10px; text-align: right; border-bottom: 1px solid #e4e4e4 }
-td:first-child, th:first-child, .words td:nth-child(2), .words th:nth-child(2) { text-align: left } .good { color: #00704f } .bad { color: #b3261e; font-weight: bold }
+td:first-child, th:first-child, .words td:nth-child(2), .words th:nth-child(2), .costs td:nth-child(-n+5), .costs th:nth-child(-n+5) { text-align: left } .good { color: #00704f } .bad { color: #b3261e; font-weight: bold }
 .best { color: #00704f; font-weight: bold }
 .advice { background: #eef6fb; border-left: 4px solid #0072b2; padding: .6em 1em }
-figure { margin: 0; flex: 0 0 200px } figcaption { font-size: 13px; text-align: center }
+figure { margin: 0; flex: 0 0 230px } figcaption { font-size: 13px; text-align: center }
 </style></head><body>
 )";
 
@@ -111,6 +111,9 @@ std::string corner_picture(const CornerPicture& picture) {
             "<rect x=\"{0}\" y=\"{1}\" width=\"1\" height=\"1\" fill=\"#{2:02x}{2:02x}{2:02x}\"/>", x, y,
             grey);
     }
+  out += fmt::format("<path d=\"M {0} 0 V {1} M 0 {0} H {1}\" stroke=\"#56b4e9\" stroke-width=\"0.15\" "
+                     "stroke-dasharray=\"0.6 0.6\"/>",
+                     picture.side / 2.0, picture.side);
   return out + fmt::format("</svg><figcaption>{}, level {}</figcaption></figure>\n", escaped(picture.mips),
                            picture.level);
 }
@@ -128,10 +131,11 @@ std::string ratio_table(const Bench& bench) {
 }
 
 std::string cost_table(const Bench& bench) {
-  std::string out =
-      "<table><tr><th>sampler</th><th>mapping</th><th>corners</th><th>filter</th><th>weights</th><th>ns a "
-      "sample</th><th>M/s</th>"
-      "<th>off the reference, of 255</th><th>RMS from the truth</th></tr>\n";
+  std::string out = "<table "
+                    "class=\"costs\"><tr><th>sampler</th><th>mapping</th><th>corners</th><th>filter</"
+                    "th><th>weights</th><th>ns a "
+                    "sample</th><th>M/s</th>"
+                    "<th>off the reference, of 255</th><th>RMS from the truth</th></tr>\n";
   for (const LookupCost& c : bench.lookups.costs)
     out +=
         fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.1f}</"
@@ -189,8 +193,8 @@ std::string bench_page(const Bench& bench) {
   for (const Zone zone : {Zone::interior, Zone::edge, Zone::corner}) page += mip_plot(bench, zone);
   page += jump_plot(bench) + "</div>\n";
   if (!bench.corners.empty()) {
-    page +=
-        "<h2>Round one corner of tiles, 4 x 4 texels: error, white from 8 units on</h2>\n<div class=\"row\">";
+    page += "<h2>Round one corner of tiles, 4 x 4 texels: error, white from 8 units on; dashed: borders of "
+            "tiles</h2>\n<div class=\"row\">";
     for (const CornerPicture& picture : bench.corners) page += corner_picture(picture);
     page += "</div>\n";
   }
