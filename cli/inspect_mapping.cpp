@@ -25,11 +25,16 @@ Drawing mapping_drawing(const Pack& pack) {
   Drawing drawing{sheet.picture, {}, {}};
   for (std::size_t i = 0; i < survey.size(); ++i) {
     const Rect panel = sheet.panels[i];
-    if (survey[i].mapping.table.empty()) continue;
-    drawing.numbers.push_back({{panel.x + panel.width / 2.0, panel.y + panel.height * 1.09},
-                               panel.height * 0.1,
-                               static_cast<int>(survey[i].mapping.table.size()),
-                               {0, 0, 0, 1}});
+    const DrawingPoint below{panel.x + panel.width / 2.0, panel.y + panel.height * 1.09};
+    const double height = panel.height * 0.1;
+    const Paint black{0, 0, 0, 1};
+    const std::size_t entries = survey[i].mapping.table.size();
+    if (i == 0)
+      drawing.words.push_back({below, height, "pack", black});
+    else if (entries == 0)
+      drawing.words.push_back({below, height, "mix", black});
+    else
+      drawing.numbers.push_back({below, height, static_cast<int>(entries), black});
   }
   return drawing;
 }

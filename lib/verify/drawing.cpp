@@ -12,10 +12,12 @@
 namespace tilepack {
 namespace {
 
-// Digits of 5 x 7 dots, a string a row.
+// Characters of 5 x 7 dots, a string a row, in the order of their names.
 constexpr int glyph_columns = 5;
 constexpr int glyph_rows = 7;
-constexpr std::array<std::array<std::string_view, glyph_rows>, 10> glyphs{{
+constexpr std::string_view glyph_names = "0123456789ackimpx";
+using Glyph = std::array<std::string_view, glyph_rows>;
+constexpr std::array<Glyph, glyph_names.size()> glyphs{{
     {" ### ", "#   #", "#  ##", "# # #", "##  #", "#   #", " ### "},
     {"  #  ", " ##  ", "  #  ", "  #  ", "  #  ", "  #  ", " ### "},
     {" ### ", "#   #", "    #", "   # ", "  #  ", " #   ", "#####"},
@@ -26,6 +28,13 @@ constexpr std::array<std::array<std::string_view, glyph_rows>, 10> glyphs{{
     {"#####", "    #", "   # ", "  #  ", "  #  ", " #   ", " #   "},
     {" ### ", "#   #", "#   #", " ### ", "#   #", "#   #", " ### "},
     {" ### ", "#   #", "#   #", " ####", "    #", "    #", " ### "},
+    {"     ", "     ", " ### ", "    #", " ####", "#   #", " ####"},
+    {"     ", "     ", " ### ", "#   #", "#    ", "#   #", " ### "},
+    {"#    ", "#    ", "#  # ", "# #  ", "##   ", "# #  ", "#  # "},
+    {"  #  ", "     ", " ##  ", "  #  ", "  #  ", "  #  ", " ### "},
+    {"     ", "     ", "## # ", "# # #", "# # #", "# # #", "# # #"},
+    {"     ", "     ", "#### ", "#   #", "#### ", "#    ", "#    "},
+    {"     ", "     ", "#   #", " # # ", "  #  ", " # # ", "#   #"},
 }};
 
 void lay(Image& image, int x, int y, const Paint& paint, double coverage) {
@@ -85,24 +94,27 @@ void fill(Image& image, const DrawingShape& shape) {
   }
 }
 
-void write_number(Image& image, const DrawingNumber& number) {
-  const std::string text = std::to_string(std::abs(number.number));
+void write(Image& image, const DrawingPoint& centre, double height, std::string_view text,
+           const Paint& paint) {
   // Whole pixels a dot keep small digits legible.
-  const int dot = std::max(1, static_cast<int>(number.height / glyph_rows));
+  const int dot = std::max(1, static_cast<int>(height / glyph_rows));
   const int width = (static_cast<int>(text.size()) * (glyph_columns + 1) - 1) * dot;
-  const int x0 = static_cast<int>(std::floor(number.centre.x - width / 2.0 + 0.5));
-  const int y0 = static_cast<int>(std::floor(number.centre.y - glyph_rows * dot / 2.0 + 0.5));
-  for (std::size_t i = 0; i < text.size(); ++i)
+  const int x0 = static_cast<int>(std::floor(centre.x - width / 2.0 + 0.5));
+  const int y0 = static_cast<int>(std::floor(centre.y - glyph_rows * dot / 2.0 + 0.5));
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t name = glyph_names.find(text[i]);
+    if (name == std::string_view::npos) continue;
+    const Glyph& glyph = glyphs[name];
     for (int row = 0; row < glyph_rows * dot; ++row)
       for (int column = 0; column < glyph_columns * dot; ++column) {
-        const auto& glyph = glyphs[static_cast<std::size_t>(text[i] - '0')];
         const int x = x0 + static_cast<int>(i) * (glyph_columns + 1) * dot + column;
         const int y = y0 + row;
         const bool inside = x >= 0 && y >= 0 && x < image.width() && y < image.height();
         if (inside &&
             glyph[static_cast<std::size_t>(row / dot)][static_cast<std::size_t>(column / dot)] == '#')
-          lay(image, x, y, number.paint, 1);
+          lay(image, x, y, paint, 1);
       }
+  }
 }
 
 std::string base64(const std::vector<std::byte>& bytes) {
@@ -136,7 +148,9 @@ std::string png_data_uri(const Image& image) {
 Image rasterised(const Drawing& drawing) {
   Image image = drawing.background;
   for (const DrawingShape& shape : drawing.shapes) fill(image, shape);
-  for (const DrawingNumber& number : drawing.numbers) write_number(image, number);
+  for (const DrawingNumber& n : drawing.numbers)
+    write(image, n.centre, n.height, std::to_string(std::abs(n.number)), n.paint);
+  for (const DrawingWord& w : drawing.words) write(image, w.centre, w.height, w.word, w.paint);
   return image;
 }
 
@@ -153,11 +167,13 @@ std::string svg(const Drawing& drawing) {
       text += fmt::format("{}{:.6g},{:.6g}", i == 0 ? "" : " ", shape.points[i].x, shape.points[i].y);
     text += fmt::format("\" {}/>\n", color_text(shape.paint));
   }
-  for (const DrawingNumber& number : drawing.numbers)
+  const auto add = [&](const DrawingPoint& centre, double size, const auto& characters, const Paint& paint) {
     text += fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\" font-family=\"monospace\" font-weight=\"bold\" "
                         "font-size=\"{:.6g}\" text-anchor=\"middle\" {}>{}</text>\n",
-                        number.centre.x, number.centre.y + number.height / 2, number.height * 1.35,
-                        color_text(number.paint), number.number);
+                        centre.x, centre.y + size / 2, size * 1.35, color_text(paint), characters);
+  };
+  for (const DrawingNumber& n : drawing.numbers) add(n.centre, n.height, n.number, n.paint);
+  for (const DrawingWord& w : drawing.words) add(w.centre, w.height, w.word, w.paint);
   return text + "</svg>\n";
 }
 

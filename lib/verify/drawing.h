@@ -36,11 +36,20 @@ struct DrawingNumber {
   Paint paint;
 };
 
+/// A short name, set as a number is: small letters of "ackimpx".
+struct DrawingWord {
+  DrawingPoint centre;
+  double height = 0;
+  std::string word;
+  Paint paint;
+};
+
 /// A picture with flat shapes and numbers over it, which can be had as pixels or as SVG.
 struct Drawing {
   Image background; ///< 3 channels, sRGB-encoded; its size is the drawing's
   std::vector<DrawingShape> shapes;
   std::vector<DrawingNumber> numbers; ///< above all shapes
+  std::vector<DrawingWord> words{};   ///< above all shapes
 };
 
 /// All of it as pixels; the borders of shapes are smoothed by 4 x 4 samples a pixel. 3 channels,

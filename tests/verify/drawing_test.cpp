@@ -72,6 +72,24 @@ TEST_CASE("each digit has its own look, and stands in the middle") {
   }
 }
 
+TEST_CASE("words are written in letters that differ, and what has no letter leaves a gap") {
+  const auto written = [](const std::string& word) {
+    Drawing drawing = blank(9, 9);
+    drawing.words.push_back({{4.5, 4.5}, 7, word, red});
+    return rasterised(drawing);
+  };
+  const std::string letters = "ackimpx";
+  for (const char letter : letters) {
+    CHECK(sum_of_red(written({letter})) > 5);
+    for (const char other : letters)
+      if (letter != other) CHECK(written({letter}) != written({other}));
+  }
+  CHECK(sum_of_red(written("?")) == 0);
+  Drawing drawing = blank(2, 2);
+  drawing.words.push_back({{1, 1}, 7, "mix", red});
+  CHECK(svg(drawing).find(">mix</text>") != std::string::npos);
+}
+
 TEST_CASE("an SVG holds the picture and every shape and number") {
   Drawing drawing = blank(2, 3);
   drawing.shapes.push_back({{{0, 0}, {1, 0}, {0, 1.5}}, {1, 0.5, 0, 0.25}});
