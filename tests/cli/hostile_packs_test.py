@@ -57,9 +57,25 @@ class PackFiles(CommandCase):
         self.refused("inspect", "out", code=3, saying=("is 2", "reads 1", "newer tilepack"))
         self.refuses(good.replace("[16, 16]", "[16, 18446744073709551616]"), ["tile_size"])
         self.refuses(good.replace("[16, 16]", "[-16, 16]"), ["tile_size[0]", "-16", "1 to 16384"])
-        self.refuses(good.replace("color_0.png", "../sample.png"), ["maps[0].levels[0].file"])
-        self.refuses(good.replace("color_0.png", "/etc/passwd"), ["maps[0].levels[0].file"])
-        self.refuses(good.replace("color_0.png", "..\\\\sample.png"), ["maps[0].levels[0].file"])
+        self.refuses(good.replace("color_0.png", "../sample.png"), ["maps[0].levels[0].file", "leads out of the folder"])
+        self.refuses(good.replace("color_0.png", "/etc/passwd"), ["maps[0].levels[0].file", "is an absolute path"])
+        self.refuses(good.replace("color_0.png", "..\\\\sample.png"), ["maps[0].levels[0].file", "holds a backslash"])
+
+    def test_a_huge_pack_json(self):
+        with open(self.path("out/pack.json"), "ab") as stream:
+            stream.truncate((16 << 20) + 1)
+        for verb, arguments in self.verbs:
+            with self.subTest(verb):
+                done = self.run_tilepack(verb, "out", *arguments, code=3)
+                self.assertIn("is 16777217 bytes long; a pack.json has at most 16777216", done.stderr)
+
+    def test_a_pack_json_that_is_no_file(self):
+        os.remove(self.path("out/pack.json"))
+        os.mkdir(self.path("out/pack.json"))
+        for verb, arguments in self.verbs:
+            with self.subTest(verb):
+                self.refused(verb, "out", *arguments, code=2, saying=("out/pack.json", "is no plain file"))
+        self.refused("bake", "sample.png", "-o", "out", *SMALL, code=4, saying="no readable tile pack")
 
     def test_a_corner_pack_that_was_not_measured(self):
         self.run_tilepack("bake", "sample.png", "-o", "corners", *SMALL, "--interior", "quilt", "--corner-pack")
