@@ -54,10 +54,12 @@ MaterialFile parsed_map_option(const std::string& option) {
     known.emplace_back(name_of(r));
   }
   const std::string nearest = nearest_name(role, known);
-  const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-  throw Error(ErrorKind::usage, "--map",
-              fmt::format("'{}' is no role{} The roles are color, normal, roughness, height and data", role,
-                          hint.empty() ? "." : hint));
+  const std::string hint = nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest);
+  throw Error(
+      ErrorKind::usage, "--map",
+      fmt::format("'{}' is no role{} The roles are color, normal, roughness, height and data: any other "
+                  "map is {}:data=FILE",
+                  role, hint, name));
 }
 
 std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::optional<Encoding> asked) {
