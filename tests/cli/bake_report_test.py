@@ -44,6 +44,10 @@ class BakeReport(CommandCase):
             self.assertTrue(source.startswith("data:image/png;base64,iVBOR"), source[:40])
         self.assertNotRegex(page, r"<script|https?:|file:|<link|url\(")
         self.assertIn("<h1>sample.png</h1>", page)
+        times = page.split("Where the time went", 1)[1].split("</table>", 1)[0]
+        shares = [int(share) for share in re.findall(r"<td>(\d+) %", times)]
+        self.assertGreaterEqual(len(shares), 2)
+        self.assertTrue(80 <= sum(shares) <= 105, shares)  # stages below a hundredth are left out
 
     def test_only_shares_of_time_differ_from_run_to_run(self):
         def bare(name):

@@ -54,6 +54,12 @@ class Arguments(CommandCase):
                           ("--guard", "9"), ("--tile-size", "4096", "--colors", "8")):
             with self.subTest(arguments):
                 self.refused("bake", sample, "-o", "out", *SMALL, *arguments, code=USAGE)
+        # Too many texels in sides that are allowed, and a side too long for few texels.
+        for arguments, texture in ((("--tile-size", "2048", "--colors", "4"), "32768 x 32768"),
+                                   (("--tile-size", "32", "--colors", "8", "--layout", "array"), "32 x 131072")):
+            with self.subTest(arguments):
+                self.refused("bake", sample, "-o", "out", *SMALL, *arguments, code=USAGE,
+                             saying=(texture, "268435456 texels, and 65536 a side"))
 
     def test_maps(self):
         sample = self.noise_png("sample.png")

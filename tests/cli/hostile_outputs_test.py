@@ -152,8 +152,12 @@ class Outputs(CommandCase):
             with self.subTest(output):
                 self.refused("bake", "sample.png", "-o", output, *SMALL, code=CANNOT_WRITE, saying=output,
                              preexec_fn=drop)
-        # The parent would let the folder be replaced as a whole, which is not what 0o555 says.
+        # Parent and owner would let the folder be replaced as a whole, which is not what 0o555 says.
         os.chmod(self.path("."), 0o777)
+        if drop:
+            for folder, _, files in os.walk(self.folder):
+                for name in (folder, *(os.path.join(folder, file) for file in files)):
+                    os.chown(name, 65534, 65534)
         for output in ("out", "empty"):
             with self.subTest(output, parent="writable"):
                 self.refused("bake", "sample.png", "-o", output, *SMALL, code=CANNOT_WRITE, saying=output,

@@ -90,6 +90,15 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     CHECK(says(facts, Grade::poor, "--interior patch"));
     facts.sample = {1024, 1024};
     CHECK(says(facts, Grade::poor, "--tile-size 256"));
+    CHECK_FALSE(says(facts, Grade::poor, "--colors 2"));
+    facts.synth.colors.corner = 3;
+    CHECK(says(facts, Grade::poor, "--colors 2 (fewer parts"));
+    facts.report.figures.cut_mean = 8;
+    CHECK(says(facts, Grade::good, "cuts hide"));
+    facts.report.figures.cut_p95 = 60; // few texels of cut are dear
+    CHECK(says(facts, Grade::fair, "some can be seen"));
+    facts.report.figures.cut_length = 0;
+    CHECK(says(facts, Grade::good, "No tile has a cut"));
   }
   SECTION("a tile that holds no whole periods") {
     facts.nature.periods.y = {24.0, 0.5};
@@ -131,6 +140,9 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     facts.nature.ink = 0.15;
     facts.nature.periods.y = {32.0, 0.5};
     CHECK(says(facts, Grade::poor, "looks like writing"));
+    facts.nature.ink = 0.5; // boards and the gaps between them
+    CHECK_FALSE(says(facts, Grade::poor, "looks like writing"));
+    facts.nature.ink = 0.15;
     facts.nature.periods.x = {32.0, 0.5}; // a grid of tiles and joints
     CHECK_FALSE(says(facts, Grade::poor, "looks like writing"));
   }
@@ -138,6 +150,9 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     facts.report.figures.coverage = 0.3;
     facts.report.figures.distinct_tiles = 3;
     CHECK(says(facts, Grade::poor, "--colors 3 shows more, in 81 tiles"));
+    facts.report.figures.distinct_tiles = 9; // a small part of a large sample, shown once
+    CHECK(bake_verdict(facts).grade == Grade::good);
+    facts.report.figures.distinct_tiles = 3;
     facts.report.figures.shown_often = 0.5;
     CHECK(says(facts, Grade::fair, "half of all tiles"));
     CHECK_FALSE(says(facts, Grade::fair, "half of all tiles show. --colors")); // said already
@@ -188,6 +203,8 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     facts.report.landmark = {{100, 200}, 6.0, 0.5};
     CHECK(says(facts, Grade::poor, "(100, 200)"));
     facts.report.landmark.shown = 0.05;
+    CHECK(bake_verdict(facts).grade == Grade::good);
+    facts.report.landmark = {{100, 200}, 3.0, 0.5};
     CHECK(bake_verdict(facts).grade == Grade::good);
   }
   SECTION("other values than the sample's") {
