@@ -165,9 +165,10 @@ std::string bake_page(const BakeStory& story, const BakedPack& made, std::span<c
   const Image sample = viewable(main.image, main.role, main.encoding);
   const Size tile = made.pack.tile_size;
   std::string page = head;
-  page += fmt::format("<h1>{}</h1>\n<p>{} x {} texels, {} map{}; {} tiles of {} x {} texels.</p>\n",
+  page += fmt::format("<h1>{}</h1>\n<p>{} x {} texels, {} map{}; {} tile{} of {} x {} texels.</p>\n",
                       escaped(story.sample), facts.sample.width, facts.sample.height, samples.size(),
-                      samples.size() == 1 ? "" : "s", facts.tiles, tile.width, tile.height);
+                      samples.size() == 1 ? "" : "s", facts.tiles, facts.tiles == 1 ? "" : "s", tile.width,
+                      tile.height);
   page += verdict_box(bake_verdict(facts));
 
   page += "<h2>The texture and its tiles</h2>\n<div class=\"row\">\n";
