@@ -116,13 +116,12 @@ float quantised(float value, Depth depth) {
   return value;
 }
 
-Image quantised(const Image& image, Depth depth) {
-  Image result = image;
+Image quantised(Image image, Depth depth) {
   if (depth != Depth::f32)
-    for_each_block(result.data(), 1, [&](std::span<float> block) {
+    for_each_block(image.data(), 1, [&](std::span<float> block) {
       for (float& v : block) v = quantised(v, depth);
     });
-  return result;
+  return image;
 }
 
 std::string_view name_of(Encoding encoding) {

@@ -31,7 +31,7 @@ Image from_linear(const Image& image, Encoding encoding);
 
 /// Each value as it would come back from a file of this depth: integers clamped to 0..1 and rounded to the
 /// nearest code (half up), half rounded to nearest even, float as it is. NaN becomes 0 for integers.
-Image quantised(const Image& image, Depth depth);
+Image quantised(Image image, Depth depth);
 float quantised(float value, Depth depth);
 
 /// The integer code that stands for `value` where `top` stands for 1: clamped to 0..top, rounded half up, 0

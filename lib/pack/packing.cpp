@@ -174,12 +174,13 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
   }
   for (int m = 0; m < maps; ++m) {
     report(progress, "mips", static_cast<double>(m) / maps);
-    const std::vector<TileMap> chain = mip_chain(set, m, options.mips, &pack.layout);
-    PackedMap map = described_by(chain.front());
+    const TileMap& finest = set.maps[static_cast<std::size_t>(m)];
+    const std::vector<TileMap> coarser = coarser_levels(set, m, options.mips, &pack.layout);
+    PackedMap map = described_by(finest);
     PackedMap corners = map;
-    pack.tile_levels = levels_held(pack.layout, set.tile_size, static_cast<int>(chain.size()));
+    pack.tile_levels = levels_held(pack.layout, set.tile_size, static_cast<int>(coarser.size()) + 1);
     for (int level = 0; level < pack.tile_levels; ++level) {
-      const TileMap& tiles = chain[static_cast<std::size_t>(level)];
+      const TileMap& tiles = level == 0 ? finest : coarser[static_cast<std::size_t>(level - 1)];
       map.levels.push_back(quantised(
           place_tiles(tiles, set.tiles, pack.layout, set.tile_size, level, {options.turn_filter, {}}),
           map.depth));
