@@ -1,6 +1,7 @@
 #include "tilepack/synth/frame_search.h"
 
 #include "tilepack/synth/byte_rows.h"
+#include "tilepack/synth/frame_refine.h"
 #include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/strip_space.h"
 #include "tilepack/tileset/random.h"
@@ -420,25 +421,6 @@ private:
   std::vector<double> uses; // tiles per strip, as the north or west of one
 };
 
-void refine(const FeatureImage& image, const FrameShape& shape, FramePlan& plan) {
-  const int margin = std::max(shape.reach, shape.corner_reach);
-  for (SourceTexel& c : plan.corners)
-    c = {std::clamp(2 * c.x, margin, std::max(margin, image.width - margin)),
-         std::clamp(2 * c.y, margin, std::max(margin, image.height - margin))};
-  for (const Direction direction : {Direction::horizontal, Direction::vertical}) {
-    const StripSpace space = space_of(shape, direction);
-    const bool horizontal = direction == Direction::horizontal;
-    auto& places = horizontal ? plan.horizontal : plan.vertical;
-    const auto& ends = horizontal ? shape.horizontal : shape.vertical;
-    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
-      const Overlap overlap =
-          end_overlap(image, shape, space, plan.corners[static_cast<std::size_t>(ends[i].first)],
-                      plan.corners[static_cast<std::size_t>(ends[i].second)]);
-      places[i] = best_near(image, overlap, {2 * places[i].x, 2 * places[i].y}, 2);
-    });
-  }
-}
-
 } // namespace
 
 FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleStatistics& statistics,
@@ -460,7 +442,7 @@ FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleS
   FramePlan best =
       plans[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
   for (int level = levels - 2; level >= 0; --level)
-    refine(pyramid[static_cast<std::size_t>(level)], halved(shape, level), best);
+    refine_frame(pyramid[static_cast<std::size_t>(level)], halved(shape, level), level == 0, best);
   report(progress, "frame search", 1.0);
   return best;
 }

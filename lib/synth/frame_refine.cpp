@@ -1,0 +1,137 @@
+#include "tilepack/synth/frame_refine.h"
+
+#include "tilepack/synth/patch_search.h"
+#include "tilepack/synth/strip_space.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+namespace tilepack {
+namespace {
+
+// A deviation of the mean step by a twentieth weighs as much as a fit twice as bad as the best.
+constexpr double evenness = 400.0;
+// Joining smooths what lies inside the tiles a little, so that borders have to be calmer as well.
+constexpr double wanted_steps = 0.98;
+
+int step(const std::uint8_t* a, const std::uint8_t* b, int channels) {
+  int sum = 0;
+  for (int c = 0; c < channels; ++c) sum += std::abs(a[c] - b[c]);
+  return sum;
+}
+
+// Across a strip's edge, with the corner patches shown as far as their cuts run on average.
+double step_across(const FeatureImage& image, const FrameShape& shape, const StripSpace& space,
+                   SourceTexel place, SourceTexel first, SourceTexel second) {
+  const int half = shape.corner_reach / 2;
+  std::int64_t total = 0;
+  for (int along = 0; along < space.length; ++along) {
+    SourceTexel origin = place;
+    if (along < half) origin = corner_origin(space, first, false);
+    if (along >= space.length - half) origin = corner_origin(space, second, true);
+    const SourceTexel before = sum(origin, space.at(along, space.reach - 1));
+    const SourceTexel after = sum(origin, space.at(along, space.reach));
+    total +=
+        step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y), image.channels);
+  }
+  return static_cast<double>(total) / space.length;
+}
+
+double mean_step(const FeatureImage& image, Direction edge) {
+  const int dx = edge == Direction::vertical ? 1 : 0;
+  const int dy = 1 - dx;
+  std::int64_t total = 0;
+  for (int y = dy; y < image.height; ++y)
+    for (int x = dx; x < image.width; ++x)
+      total += step(image.texel(x - dx, y - dy), image.texel(x, y), image.channels);
+  return static_cast<double>(total) / (static_cast<double>(image.width - dx) * (image.height - dy));
+}
+
+struct Place {
+  SourceTexel at;
+  double misfit;
+  double step; // across the edge, of the usual
+};
+
+std::vector<Place> places_near(const FeatureImage& image, const Overlap& overlap, SourceTexel start,
+                               int distance) {
+  std::vector<Place> places;
+  for (int y = start.y - distance; y <= start.y + distance; ++y)
+    for (int x = start.x - distance; x <= start.x + distance; ++x) {
+      if (x < 0 || y < 0 || x + overlap.width > image.width || y + overlap.height > image.height) continue;
+      places.push_back({{x, y}, static_cast<double>(mismatch_at(image, overlap, {x, y})), 0.0});
+    }
+  return places;
+}
+
+// One place for each strip, by misfit and by the mean of all steps.
+std::vector<std::size_t> chosen_together(const std::vector<std::vector<Place>>& strips) {
+  std::vector<std::size_t> chosen(strips.size());
+  std::vector<double> least(strips.size());
+  double steps = 0.0;
+  const auto by_misfit = [](const Place& a, const Place& b) { return a.misfit < b.misfit; };
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const auto best = std::min_element(strips[i].begin(), strips[i].end(), by_misfit);
+    chosen[i] = static_cast<std::size_t>(best - strips[i].begin());
+    least[i] = std::max(best->misfit, 1.0);
+    steps += best->step;
+  }
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      const double others = steps - strips[i][chosen[i]].step;
+      double lowest = std::numeric_limits<double>::max();
+      for (std::size_t k = 0; k < strips[i].size(); ++k) {
+        const Place& place = strips[i][k];
+        const double off = (others + place.step) / static_cast<double>(strips.size()) - wanted_steps;
+        const double cost =
+            place.misfit / least[i] + evenness * static_cast<double>(strips.size()) * off * off;
+        if (cost < lowest) {
+          lowest = cost;
+          chosen[i] = k;
+        }
+      }
+      steps = others + strips[i][chosen[i]].step;
+    }
+  return chosen;
+}
+
+} // namespace
+
+void refine_frame(const FeatureImage& image, const FrameShape& shape, bool even_steps, FramePlan& plan) {
+  const int margin = std::max(shape.reach, shape.corner_reach);
+  for (SourceTexel& c : plan.corners)
+    c = {std::clamp(2 * c.x, margin, std::max(margin, image.width - margin)),
+         std::clamp(2 * c.y, margin, std::max(margin, image.height - margin))};
+  const int distance = even_steps ? 3 : 2;
+  for (const Direction direction : {Direction::horizontal, Direction::vertical}) {
+    const StripSpace space = space_of(shape, direction);
+    const bool horizontal = direction == Direction::horizontal;
+    auto& places = horizontal ? plan.horizontal : plan.vertical;
+    const auto& ends = horizontal ? shape.horizontal : shape.vertical;
+    const double usual = even_steps ? mean_step(image, direction) : 0.0;
+    std::vector<std::vector<Place>> near(places.size());
+    tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+      const SourceTexel first = plan.corners[static_cast<std::size_t>(ends[i].first)];
+      const SourceTexel second = plan.corners[static_cast<std::size_t>(ends[i].second)];
+      const Overlap overlap = end_overlap(image, shape, space, first, second);
+      const SourceTexel start{2 * places[i].x, 2 * places[i].y};
+      if (usual <= 0.0) {
+        places[i] = best_near(image, overlap, start, 2);
+        return;
+      }
+      near[i] = places_near(image, overlap, start, distance);
+      for (Place& place : near[i])
+        place.step = step_across(image, shape, space, place.at, first, second) / usual;
+    });
+    if (usual <= 0.0) continue;
+    const auto chosen = chosen_together(near);
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = near[i][chosen[i]].at;
+  }
+}
+
+} // namespace tilepack
