@@ -28,13 +28,13 @@ Drawing mapping_drawing(const Pack& pack) {
     const DrawingPoint below{panel.x + panel.width / 2.0, panel.y + panel.height * 1.09};
     const double height = panel.height * 0.1;
     const Paint black{0, 0, 0, 1};
-    const std::size_t entries = survey[i].mapping.table.size();
+    const Mapping& mapping = survey[i].mapping;
     if (i == 0)
       drawing.words.push_back({below, height, "pack", black});
-    else if (entries == 0)
-      drawing.words.push_back({below, height, "mix", black});
+    else if (mapping.kind == MappingKind::permutation)
+      drawing.numbers.push_back({below, height, static_cast<int>(mapping.table.size()), black});
     else
-      drawing.numbers.push_back({below, height, static_cast<int>(entries), black});
+      drawing.words.push_back({below, height, std::string(name_of(mapping.kind)), black});
   }
   return drawing;
 }

@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/wrap.h"
+#include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/mix_hash.h"
 #include "tilepack/tileset/random.h"
 
@@ -44,6 +45,9 @@ int vertical_color(const Mapping& m, int colors, std::int64_t x, std::int64_t y)
 
 int corner_color(const Mapping& m, int colors, std::int64_t x, std::int64_t y) {
   if (m.kind == MappingKind::mix) return mix_color(m.seed, MixAxis::corner, x, y, colors);
+  if (m.kind == MappingKind::even)
+    return even_color(mix_keys(m.seed, MixAxis::corner), m.table.data(), static_cast<std::uint32_t>(x),
+                      static_cast<std::uint32_t>(y), colors);
   return static_cast<int>(entry(m.table, entry(m.table, x) + y) % colors);
 }
 
@@ -66,6 +70,8 @@ std::string_view name_of(MappingKind kind) {
     return "permutation";
   case MappingKind::mix:
     return "mix";
+  case MappingKind::even:
+    return "even";
   case MappingKind::index:
     break;
   }
@@ -103,6 +109,21 @@ Mapping mix_mapping(VirtualSize size, std::uint64_t seed) {
   Mapping mapping;
   mapping.kind = MappingKind::mix;
   mapping.size = size;
+  mapping.seed = seed;
+  return mapping;
+}
+
+Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed) {
+  check_size(size, longest_side, "");
+  if (!has_even_pattern(corners))
+    throw Error(
+        ErrorKind::usage, "mapping",
+        fmt::format("'even' has patterns for 2 to 4 corner colors, not for {}; take the mapping \"mix\"",
+                    corners == 0 ? std::string("edge colors") : std::to_string(corners)));
+  Mapping mapping;
+  mapping.kind = MappingKind::even;
+  mapping.size = size;
+  mapping.table = even_pattern(corners);
   mapping.seed = seed;
   return mapping;
 }

@@ -8,9 +8,9 @@
 
 namespace tilepack {
 
-enum class MappingKind { permutation, mix, index };
+enum class MappingKind { permutation, mix, even, index };
 
-std::string_view name_of(MappingKind kind); ///< "permutation", "mix", "index"
+std::string_view name_of(MappingKind kind); ///< "permutation", "mix", "even", "index"
 
 /// The virtual texture's size in tiles, each side 1..2^31. It wraps.
 struct VirtualSize {
@@ -29,12 +29,13 @@ struct VirtualSize {
 ///                H(x, y) is the edge on top of cell (x, y), V(x, y) the one on its left, C(x, y) its
 ///                north-west corner.
 ///   mix          the same lattice from a keyed integer hash, mapping/mix_hash.h: no table, no period
+///   even         corners only: a pattern without near repeats, placed by the hash, mapping/even_pattern.h
 ///   index        a stored image of tile ids, one a cell
 struct Mapping {
   MappingKind kind = MappingKind::permutation;
   VirtualSize size;
-  std::vector<int> table; ///< permutation: a permutation of 0..n-1
-  std::uint64_t seed = 0; ///< mix
+  std::vector<int> table; ///< permutation: a permutation of 0..n-1; even: the pattern, 64 * 64 colors
+  std::uint64_t seed = 0; ///< mix, even
   std::vector<int> ids;   ///< index: size.width * size.height tile ids, row by row
 };
 
@@ -48,6 +49,9 @@ std::vector<int> permutation_table(int length, std::uint64_t seed);
 Mapping permutation_mapping(VirtualSize size, const ColorCounts& colors, std::uint64_t seed);
 
 Mapping mix_mapping(VirtualSize size, std::uint64_t seed);
+
+/// `corners`: 2..4 colors (Error, usage).
+Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed);
 
 /// `mapping` written out cell by cell; at most 2^26 cells (Error, usage).
 Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors);

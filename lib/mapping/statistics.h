@@ -49,7 +49,8 @@ struct MappingStatistics {
   std::vector<FamilyStatistics> families; ///< tiles first; of an index mapping nothing else
 
   /// Sentences that name each fault found: repeats, runs twice as long as chance makes them, counts or pairs
-  /// over 6 standard deviations off. Empty: the mapping shows no pattern here.
+  /// over 6 standard deviations off. Of the mapping "even" only what goes beyond its purpose: near pairs
+  /// equal too often, and runs longer than a block. Empty: the mapping shows no pattern here.
   std::vector<std::string> faults;
 };
 

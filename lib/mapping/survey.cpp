@@ -1,5 +1,7 @@
 #include "tilepack/mapping/survey.h"
 
+#include "tilepack/mapping/even_pattern.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -90,6 +92,7 @@ std::vector<SurveyedMapping> mapping_survey(const Mapping& mapping, const ColorC
   lengths.push_back(static_cast<int>(std::max(size.width, size.height)) + 1);
   std::sort(lengths.begin(), lengths.end());
   for (const int length : lengths) mappings.push_back(permutation_mapping_of_length(size, length, seed));
+  if (has_even_pattern(colors.corner)) mappings.push_back(even_mapping(size, colors.corner, seed));
   mappings.push_back(mix_mapping(size, seed));
 
   std::vector<SurveyedMapping> survey;
@@ -174,11 +177,12 @@ std::string survey_json(const std::vector<SurveyedMapping>& survey) {
   for (const SurveyedMapping& entry : survey) {
     nlohmann::ordered_json families = nlohmann::ordered_json::array();
     for (const FamilyStatistics& f : entry.statistics.families) families.push_back(family_json(f));
-    mappings.push_back({{"name", entry.name},
-                        {"kind", name_of(entry.mapping.kind)},
-                        {"table_size", entry.mapping.table.size()},
-                        {"families", families},
-                        {"faults", entry.statistics.faults}});
+    mappings.push_back(
+        {{"name", entry.name},
+         {"kind", name_of(entry.mapping.kind)},
+         {"table_size", entry.mapping.kind == MappingKind::permutation ? entry.mapping.table.size() : 0},
+         {"families", families},
+         {"faults", entry.statistics.faults}});
   }
   const nlohmann::ordered_json all{{"window", {window.width, window.height}}, {"mappings", mappings}};
   return all.dump(2) + "\n";

@@ -64,7 +64,8 @@ constexpr std::array mip_modes{Choice{"none", MipMode::none}, Choice{"box", MipM
                                Choice{"edges", MipMode::edges}, Choice{"corners", MipMode::corners},
                                Choice{"least-squares", MipMode::least_squares}};
 constexpr std::array mappings{Choice{"permutation", MappingKind::permutation},
-                              Choice{"mix", MappingKind::mix}, Choice{"index", MappingKind::index}};
+                              Choice{"mix", MappingKind::mix}, Choice{"even", MappingKind::even},
+                              Choice{"index", MappingKind::index}};
 constexpr std::array tile_choices{Choice{"complete", TileChoice::complete},
                                   Choice{"sequential", TileChoice::sequential}};
 constexpr std::array turn_filters{Choice{"bilinear", ResampleFilter::bilinear},
@@ -247,9 +248,11 @@ std::vector<BakeField> make_fields() {
        [](O& o, const T& text) { o.mips.alpha_coverage = static_cast<int>(whole(text, 0, 100)); },
        [](const O& o) { return fmt::format("{}", o.mips.alpha_coverage); }},
       {"mapping", Type::choice, alternatives(mappings),
-       "how the tile of a cell is found: hash table, integer hash, or a stored map",
+       "how the tile of a cell is found: hash table, integer hash, a pattern without near repeats placed by "
+       "the "
+       "hash (corner colors; then the default), or a stored map",
        [](O& o, const T& text) { o.mapping = chosen(mappings, text); },
-       [](const O& o) { return name_in(mappings, o.mapping); }},
+       [](const O& o) { return o.mapping ? name_in(mappings, *o.mapping) : std::string(); }},
       {"virtual-size", Type::extent, "N|WxH", "size of the virtual texture in tiles, 1 to 2^31",
        set_virtual_size, [](const O& o) { return shown(o.virtual_size.width, o.virtual_size.height); }},
       {"format", Type::choice, alternatives(formats),

@@ -3,6 +3,7 @@
 #include "tilepack/layout/array_layout.h"
 #include "tilepack/layout/rotated_lattice.h"
 #include "tilepack/layout/surroundings.h"
+#include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mip/border_keys.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/json_cursor.h"
@@ -285,7 +286,24 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
   return maps;
 }
 
-Mapping read_mapping(const JsonCursor& value, std::string& index_file, std::set<std::string>& used) {
+// Rows of digits, a corner color each.
+std::vector<int> read_pattern(const JsonCursor& value, const ColorCounts& colors) {
+  if (colors.corner == 0) value.fail("of corner colors, but the tiles have edge colors; bake the pack again");
+  std::vector<int> pattern;
+  value.array(even_pattern_side, even_pattern_side);
+  for (std::size_t row = 0; row < even_pattern_side; ++row) {
+    const std::string digits = value.item(row).text();
+    const auto legal = [&](char digit) { return digit >= '0' && digit < '0' + colors.corner; };
+    if (digits.size() != even_pattern_side || !std::all_of(digits.begin(), digits.end(), legal))
+      value.item(row).fail(fmt::format("{}; a row is {} digits of 0 to {}, one a corner",
+                                       value.item(row).shown(), even_pattern_side, colors.corner - 1));
+    for (const char digit : digits) pattern.push_back(digit - '0');
+  }
+  return pattern;
+}
+
+Mapping read_mapping(const JsonCursor& value, const ColorCounts& colors, std::string& index_file,
+                     std::set<std::string>& used) {
   Mapping mapping;
   mapping.kind = named(value.member("kind"), MappingKind::index);
   const bool stored = mapping.kind == MappingKind::index;
@@ -306,6 +324,12 @@ Mapping read_mapping(const JsonCursor& value, std::string& index_file, std::set<
     value.only({"kind", "virtual_size", "seed"});
     mapping.seed =
         static_cast<std::uint64_t>(value.member("seed").integer(0, static_cast<std::int64_t>(largest_seed)));
+    break;
+  case MappingKind::even:
+    value.only({"kind", "virtual_size", "seed", "pattern"});
+    mapping.seed =
+        static_cast<std::uint64_t>(value.member("seed").integer(0, static_cast<std::int64_t>(largest_seed)));
+    mapping.table = read_pattern(value.member("pattern"), colors);
     break;
   case MappingKind::index: {
     value.only({"kind", "virtual_size", "file"});
@@ -416,7 +440,7 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   std::set<std::string> used{"pack.json"};
   pack.maps =
       read_maps(root.member("maps"), {pack.layout, pack.tile_size, pack.tile_levels}, result.map_files, used);
-  pack.mapping = read_mapping(root.member("mapping"), result.index_file, used);
+  pack.mapping = read_mapping(root.member("mapping"), pack.colors, result.index_file, used);
   if (pack.mapping.kind != MappingKind::index) check_complete(root.member("tiles"), pack.tiles, pack.colors);
   if (const auto corner = root.find("corner_pack"))
     pack.corner_pack = read_corner_pack(*corner, pack, result.corner_files, used);

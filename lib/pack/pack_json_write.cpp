@@ -1,4 +1,5 @@
 #include "tilepack/image/image_file.h"
+#include "tilepack/mapping/even_pattern.h"
 #include "tilepack/pack/pack_json.h"
 
 #include <fmt/format.h>
@@ -143,6 +144,16 @@ Json mapping_json(const Mapping& mapping, const std::string& index_file) {
     break;
   case MappingKind::mix:
     json["seed"] = mapping.seed;
+    break;
+  case MappingKind::even:
+    json["seed"] = mapping.seed;
+    json["pattern"] = Json::array();
+    for (std::size_t row = 0; row < even_pattern_side; ++row) {
+      std::string digits;
+      for (std::size_t column = 0; column < even_pattern_side; ++column)
+        digits += static_cast<char>('0' + mapping.table[row * even_pattern_side + column]);
+      json["pattern"].push_back(digits);
+    }
     break;
   case MappingKind::index:
     json["file"] = index_file;

@@ -5,6 +5,7 @@
 #include "tilepack/layout/corner_grid.h"
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
+#include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/index_fill.h"
 #include "tilepack/pack/round_trip.h"
 #include "tilepack/tileset/border_agreement.h"
@@ -15,6 +16,11 @@
 
 namespace tilepack {
 namespace {
+
+MappingKind mapping_kind(const PackingOptions& o, const TileColors& tiles) {
+  if (o.mapping) return *o.mapping;
+  return has_even_pattern(color_counts(tiles).corner) ? MappingKind::even : MappingKind::mix;
+}
 
 constexpr int longest_texture_side = 65536;
 
@@ -33,11 +39,11 @@ void check_layout_fits(const PackingOptions& o, const TileColors& tiles) {
   if (o.layout == LayoutKind::tile_index) tile_index_layout(std::get<std::vector<EdgeTile>>(tiles));
   if (o.layout == LayoutKind::de_bruijn) de_bruijn_layout(std::get<std::vector<CornerTile>>(tiles));
   if (is_complete_set(tiles)) return;
-  if (o.mapping != MappingKind::index)
+  if (const MappingKind kind = mapping_kind(o, tiles); kind != MappingKind::index)
     throw Error(
         ErrorKind::usage, "--mapping",
         fmt::format("'{}' needs the complete set, in the order of its colors; use index for these {} tiles",
-                    name_of(o.mapping), tile_count(tiles)));
+                    name_of(kind), tile_count(tiles)));
 }
 
 void check_layout_options(const PackingOptions& o, Size tile_size) {
@@ -76,28 +82,34 @@ Layout layout_for(const PackingOptions& o, const TileColors& tiles, Size tile_si
 }
 
 Mapping mapping_for(const PackingOptions& o, const TileSet& set, std::uint64_t seed) {
-  switch (o.mapping) {
+  switch (mapping_kind(o, set.tiles)) {
   case MappingKind::permutation:
     return permutation_mapping(o.virtual_size, set.colors, seed);
   case MappingKind::mix:
     return mix_mapping(o.virtual_size, seed);
+  case MappingKind::even:
+    return even_mapping(o.virtual_size, set.colors.corner, seed);
   case MappingKind::index:
     break;
   }
-  return is_complete_set(set.tiles) ? index_mapping(mix_mapping(o.virtual_size, seed), set.colors)
-                                    : filled_index_mapping(o.virtual_size, set.tiles, seed);
+  if (!is_complete_set(set.tiles)) return filled_index_mapping(o.virtual_size, set.tiles, seed);
+  return index_mapping(has_even_pattern(set.colors.corner)
+                           ? even_mapping(o.virtual_size, set.colors.corner, seed)
+                           : mix_mapping(o.virtual_size, seed),
+                       set.colors);
 }
 
 // Its range alone, without the work of filling an index map.
 void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
-  if (o.mapping == MappingKind::permutation) permutation_mapping(o.virtual_size, color_counts(tiles), 0);
-  if (o.mapping == MappingKind::mix) mix_mapping(o.virtual_size, 0);
+  const MappingKind kind = mapping_kind(o, tiles);
+  if (kind == MappingKind::permutation) permutation_mapping(o.virtual_size, color_counts(tiles), 0);
+  if (kind == MappingKind::mix) mix_mapping(o.virtual_size, 0);
+  if (kind == MappingKind::even) even_mapping(o.virtual_size, color_counts(tiles).corner, 0);
   constexpr std::int64_t longest_side = 65536;
   constexpr std::int64_t most_cells = std::int64_t{1} << 26;
   const VirtualSize& size = o.virtual_size;
-  if (o.mapping == MappingKind::index &&
-      (size.width < 1 || size.height < 1 || size.width > longest_side || size.height > longest_side ||
-       size.width * size.height > most_cells))
+  if (kind == MappingKind::index && (size.width < 1 || size.height < 1 || size.width > longest_side ||
+                                     size.height > longest_side || size.width * size.height > most_cells))
     throw Error(ErrorKind::usage, "--virtual-size",
                 fmt::format("{}x{} tiles; an index map has sides of 1 to {} and at most {} cells", size.width,
                             size.height, longest_side, most_cells));

@@ -24,7 +24,7 @@ struct PackingOptions {
   int border = 0; ///< array: texels round each layer's tile; 0 or a power of two, at most half a tile
   bool corner_pack = false; ///< edge coloring and a complete set only
   MipOptions mips;
-  MappingKind mapping = MappingKind::mix; ///< a table repeats columns: mapping/statistics.h
+  std::optional<MappingKind> mapping; ///< unset: even for corner sets of 2 to 4 colors, else mix
   VirtualSize virtual_size{256, 256};
   std::optional<PackFormat> format; ///< of all maps; unset: what the depth asks for
   std::optional<Depth> depth; ///< of all maps; unset: each map keeps its own, or the nearest of `format`

@@ -36,7 +36,8 @@ struct FastTables {
     permutation_edges, // Wei04, Eq. 2, by tables
     permutation_corners,
     mix_edges,
-    mix_corners
+    mix_corners,
+    even_corners
   };
   Lookup lookup = Lookup::none;
   std::int64_t width = 1; // of the virtual texture, in tiles
@@ -51,6 +52,7 @@ struct FastTables {
   const std::int32_t* second = nullptr;
   const std::int32_t* horizontal = nullptr;
   const std::int32_t* vertical = nullptr;
+  const int* pattern = nullptr; // even
   MixKeys horizontal_keys;
   MixKeys vertical_keys;
 };

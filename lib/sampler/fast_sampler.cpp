@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/wrap.h"
+#include "tilepack/mapping/even_pattern.h"
 #include "tilepack/sampler/address.h"
 #include "tilepack/sampler/fast_corners.h"
 #include "tilepack/sampler/fast_kernel.h"
@@ -85,7 +86,7 @@ struct FastSampler::State {
   FastTables tables;
   FastKernel kernel;
   std::vector<std::byte> texels;
-  std::vector<std::int32_t> places, first, second, horizontal, vertical;
+  std::vector<std::int32_t> places, first, second, horizontal, vertical, pattern;
 
   void take_kernel(std::string_view target);
   std::optional<FastCorners> corner_pass;
@@ -245,6 +246,12 @@ void FastSampler::State::take_mapping(const Pack& pack) {
     t.horizontal_keys = mix_keys(mapping.seed, corners ? MixAxis::corner : MixAxis::horizontal);
     t.vertical_keys = mix_keys(mapping.seed, MixAxis::vertical);
     break;
+  case MappingKind::even:
+    t.lookup = Lookup::even_corners;
+    t.horizontal_keys = mix_keys(mapping.seed, MixAxis::corner);
+    pattern = mapping.table;
+    t.pattern = pattern.data();
+    break;
   }
   if (t.lookup != Lookup::index) places = place_of_tile;
   t.places = places.data();
@@ -289,7 +296,7 @@ TexelStorage FastSampler::storage() const {
 
 std::size_t FastSampler::bytes() const {
   const std::size_t entries = state->places.size() + state->first.size() + state->second.size() +
-                              state->horizontal.size() + state->vertical.size();
+                              state->horizontal.size() + state->vertical.size() + state->pattern.size();
   return state->texels.size() + entries * sizeof(std::int32_t);
 }
 
@@ -346,6 +353,13 @@ std::int32_t place_of_cell(const FastTables& t, std::int32_t x, std::int32_t y) 
   case Lookup::mix_corners:
     return place(mixed_color(t.horizontal_keys, x, y, kh), mixed_color(t.horizontal_keys, x1, y, kh),
                  mixed_color(t.horizontal_keys, x, y1, kh), mixed_color(t.horizontal_keys, x1, y1, kh));
+  case Lookup::even_corners: {
+    const auto color = [&](std::int32_t i, std::int32_t j) {
+      return even_color(t.horizontal_keys, t.pattern, static_cast<std::uint32_t>(i),
+                        static_cast<std::uint32_t>(j), kh);
+    };
+    return place(color(x, y), color(x1, y), color(x, y1), color(x1, y1));
+  }
   default:
     return 0;
   }

@@ -143,7 +143,8 @@ std::string mapping_text(const Pack& pack) {
   std::string kind(name_of(pack.mapping.kind));
   if (pack.mapping.kind == MappingKind::permutation)
     kind += fmt::format(" of {} entries", pack.mapping.table.size());
-  if (pack.mapping.kind == MappingKind::mix) kind += fmt::format(", seed {}", pack.mapping.seed);
+  if (pack.mapping.kind == MappingKind::mix || pack.mapping.kind == MappingKind::even)
+    kind += fmt::format(", seed {}", pack.mapping.seed);
   return fmt::format("mapping   {}; {} x {} tiles = {} x {} texels\n", kind, size.width, size.height,
                      size.width * pack.tile_size.width, size.height * pack.tile_size.height);
 }

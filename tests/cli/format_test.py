@@ -19,7 +19,7 @@ def mixed(w):
     return w ^ w >> 31
 
 
-def mix_color(seed, axis, x, y, colors):
+def mix_word(seed, axis, x, y):
     increment = 0x9E3779B97F4A7C15
     start = mixed(seed) + (2 * axis + 1) * increment
     a, b = mixed(start & M64), mixed(start + increment & M64)
@@ -33,7 +33,23 @@ def mix_color(seed, axis, x, y, colors):
     x ^= mix_round(y + k[1] & M32, 0xC2B2AE35)
     y ^= mix_round(x + k[2] & M32, 0x9E3779B1)
     x ^= mix_round(y + k[3] & M32, 0x27D4EB2F)
-    return (x >> 16) * colors >> 16
+    return x
+
+
+def mix_color(seed, axis, x, y, colors):
+    return (mix_word(seed, axis, x, y) >> 16) * colors >> 16
+
+
+def even_color(seed, pattern, x, y, colors):
+    word = mix_word(seed, 2, x >> 6, y >> 6)
+    u, v = (x + word) & 63, (y + (word >> 6)) & 63
+    if word >> 12 & 1:
+        u = 63 - u
+    if word >> 13 & 1:
+        v = 63 - v
+    if word >> 14 & 1:
+        u, v = v, u
+    return (int(pattern[v][u]) + ((word >> 16) * colors >> 16)) % colors
 
 
 def tile_index(a, b):
@@ -61,6 +77,8 @@ class Sampler:
         colors = self.pack["colors"][name]
         if self.mapping["kind"] == "mix":
             return mix_color(self.mapping["seed"], "HVC".index(family), x, y, colors)
+        if self.mapping["kind"] == "even":
+            return even_color(self.mapping["seed"], self.mapping["pattern"], x, y, colors)
         table = self.mapping["table"]
         entry = lambda i: table[i % len(table)]
         if family == "V":
@@ -92,7 +110,7 @@ class Sampler:
 class Format(CommandCase):
     def test_packs_sampled_by_the_page(self):
         sample = self.noise_png("sample.png", 64, 48)
-        for arguments in (("--mapping", "mix"), ("--mapping", "permutation", "--colors", "2x3"), ("--mapping", "index"),
+        for arguments in (("--mapping", "mix"), ("--mapping", "permutation", "--colors", "2x3"), ("--mapping", "index"), (), ("--colors", 3, "--virtual-size", "70x90", "--seed", 5),
                           ("--mapping", "mix", "--colors", "3x1", "--seed", 2**53 - 1), ("--tile-size", "12x10")):
             with self.subTest(arguments):
                 self.run_tilepack("bake", sample, "-o", "out", "--tile-size", 8, "--effort", 0, "--virtual-size",

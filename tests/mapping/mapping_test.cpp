@@ -1,5 +1,6 @@
 #include "tilepack/error/error.h"
 #include "tilepack/image/wrap.h"
+#include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/mapping.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 
 using namespace tilepack;
@@ -88,6 +90,17 @@ TEST_CASE("neighbours agree on the edge and the corners between them, anywhere")
   check_edges_agree(permutation_mapping({1, 1}, edges_3x2, 9));
   check_edges_agree(mix_mapping({std::int64_t{1} << 31, std::int64_t{1} << 31}, 9));
   check_edges_agree(mix_mapping({1000, 7}, 9));
+  for (const int k : {2, 3, 4}) {
+    const Mapping even = even_mapping({1000, std::int64_t{1} << 31}, k, 9);
+    for (const std::int64_t at :
+         {std::int64_t{-3}, std::int64_t{30}, std::int64_t{997}, std::int64_t{1} << 31})
+      for (std::int64_t d = 0; d < 5; ++d) {
+        const CornerTile tile = corner_tile_at(even, {0, 0, k}, at + d, at - d);
+        const CornerTile east = corner_tile_at(even, {0, 0, k}, at + d + 1, at - d);
+        const CornerTile south = corner_tile_at(even, {0, 0, k}, at + d, at - d + 1);
+        REQUIRE((tile.ne == east.nw && tile.se == east.sw && tile.sw == south.nw && tile.se == south.ne));
+      }
+  }
 }
 
 TEST_CASE("a mapping wraps at its size") {
@@ -118,6 +131,99 @@ TEST_CASE("every tile of the set comes up, and another seed gives another plane"
     CHECK(seen.size() == 36);
   }
   CHECK(index_mapping(mix, edges_3x2).ids != index_mapping(mix_mapping({64, 64}, 6), edges_3x2).ids);
+}
+
+TEST_CASE("a block of the even mapping is the pattern, moved and turned by the block's hash") {
+  const Mapping even = even_mapping({1 << 20, 1 << 20}, 3, 4);
+  const MixKeys keys = mix_keys(4, MixAxis::corner);
+  const auto pattern = [&](std::uint32_t u, std::uint32_t v) {
+    return even.table[static_cast<std::size_t>(v % 64 * 64 + u % 64)];
+  };
+  int turned = 0;
+  for (std::uint32_t block = 0; block < 40; ++block) {
+    const std::uint32_t word = mix_word(keys, block, 7);
+    turned += static_cast<int>(word >> 14 & 1);
+    for (std::uint32_t i = 0; i < 64; ++i) {
+      // Written out by cases, as the page on the format has it.
+      std::uint32_t u = (block * 64 + i + word % 64) % 64;
+      std::uint32_t v = (7 * 64 + 63 - i + word / 64 % 64) % 64;
+      if (word / 4096 % 2 == 1) u = 63 - u;
+      if (word / 8192 % 2 == 1) v = 63 - v;
+      const int color = word / 16384 % 2 == 1 ? pattern(v, u) : pattern(u, v);
+      const int shift = static_cast<int>((word / 65536 * 3) / 65536);
+      REQUIRE(corner_tile_at(even, corners_3, block * 64 + i, 7 * 64 + 63 - i).nw == (color + shift) % 3);
+    }
+  }
+  CHECK(turned > 5);
+  CHECK(turned < 35);
+}
+
+namespace {
+
+// The largest share of an 8 x 8 window that one displacement of up to 4 tiles brings onto equal tiles, pairs
+// at the window's middle counting more; the mean over many windows. And the variance of how often tiles are
+// shown.
+struct Evenness {
+  double repeat = 0;
+  double variance = 0;
+};
+
+Evenness evenness(const Mapping& mapping, int colors) {
+  constexpr int window = 8;
+  const double weight[window] = {0.04, 0.31, 0.69, 0.96, 0.96, 0.69, 0.31, 0.04};
+  Evenness sum;
+  int windows = 0;
+  for (int wy = 0; wy < 100; wy += 5)
+    for (int wx = 0; wx < 100; wx += 5, ++windows) {
+      const auto id = [&](int x, int y) { return tile_at(mapping, {0, 0, colors}, wx + x, wy + y); };
+      double worst = 0;
+      for (int dy = 0; dy <= 4; ++dy)
+        for (int dx = -4; dx <= 4; ++dx) {
+          if (dy == 0 && dx <= 0) continue;
+          double equal = 0;
+          double all = 0;
+          for (int y = 0; y + dy < window; ++y)
+            for (int x = std::max(0, -dx); x < window - std::max(0, dx); ++x) {
+              const double w = weight[x] * weight[y] * weight[x + dx] * weight[y + dy];
+              all += w;
+              if (id(x, y) == id(x + dx, y + dy)) equal += w;
+            }
+          worst = std::max(worst, equal / all);
+        }
+      sum.repeat += worst;
+      const double fair = 64.0 / (colors * colors * colors * colors);
+      std::map<int, int> counts;
+      for (int y = 0; y < window; ++y)
+        for (int x = 0; x < window; ++x) ++counts[id(x, y)];
+      double squares = 0;
+      for (const auto& [tile, count] : counts) squares += count * count;
+      sum.variance += squares / 64.0 - fair;
+    }
+  return {sum.repeat / windows, sum.variance / windows};
+}
+
+} // namespace
+
+TEST_CASE("the even mapping repeats less nearby than independent colors, and shows tiles more evenly") {
+  for (const int k : {2, 3, 4}) {
+    const Evenness even = evenness(even_mapping({4096, 4096}, k, 11), k);
+    const Evenness mix = evenness(mix_mapping({4096, 4096}, 11), k);
+    INFO(k << " colors: repeat " << even.repeat << " against " << mix.repeat << ", variance " << even.variance
+           << " against " << mix.variance);
+    CHECK(even.repeat < 0.9 * mix.repeat);
+    CHECK(even.variance < 0.8 * mix.variance);
+  }
+}
+
+TEST_CASE("the even mapping is for two to four corner colors") {
+  for (const int k : {0, 1, 5, 8}) CHECK_THROWS_AS(even_mapping({8, 8}, k, 0), Error);
+  CHECK_THROWS_AS(even_mapping({0, 8}, 2, 0), Error);
+  for (const int k : {2, 3, 4}) {
+    const std::vector<int> pattern = even_pattern(k);
+    CHECK(pattern.size() == 64 * 64);
+    CHECK(*std::min_element(pattern.begin(), pattern.end()) == 0);
+    CHECK(*std::max_element(pattern.begin(), pattern.end()) == k - 1);
+  }
 }
 
 TEST_CASE("sizes out of range are refused") {

@@ -60,6 +60,17 @@ TEST_CASE("the mixing hash shows no pattern, whatever the seed and the colors") 
     }
 }
 
+TEST_CASE("the even mapping's tiles return less often nearby, which is no fault; nor does it show another") {
+  for (const std::uint64_t seed : {0u, 1u, 2u})
+    for (const int k : {2, 3, 4}) {
+      const MappingStatistics s = mapping_statistics(even_mapping({1 << 20, 1 << 20}, k, seed), {0, 0, k});
+      for (const std::string& fault : s.faults) UNSCOPED_INFO(fault);
+      CHECK(s.faults.empty());
+      if (k == 2) CHECK(family(s, "tiles").along_rows.sigmas < -6);
+      CHECK(family(s, "tiles").longest_in_columns.length < 96);
+    }
+}
+
 TEST_CASE("known fault of the permutation hash: an even table no longer than the texture repeats at half") {
   const Mapping m = permutation_mapping_of_length({64, 64}, 64, 7);
   const MappingStatistics s = mapping_statistics(m, two_by_two);

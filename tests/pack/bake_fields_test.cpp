@@ -56,7 +56,7 @@ const std::map<std::string, Values> values_of_fields{
     {"jump-weight", {{"0", "1000"}, {"-1", "1001", "0.5"}}},
     {"roughness-from-normals", {{"true", "false"}, {"on", "0"}}},
     {"alpha-coverage", {{"0", "100"}, {"-1", "101", "50%"}}},
-    {"mapping", {{"permutation", "mix", "index"}, {"hash"}}},
+    {"mapping", {{"permutation", "mix", "even", "index"}, {"hash"}}},
     {"virtual-size", {{"1", "2147483648", "5x7"}, {"0", "2147483649", "-1x4"}}},
     {"format", {{"png", "exr"}, {"jpg", "PNG"}}},
     {"depth", {{"u8", "u16", "f16", "f32"}, {"8", "u32"}}},

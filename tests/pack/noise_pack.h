@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/encoding.h"
+#include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/mapping.h"
 #include "tilepack/mip/mip_chain.h"
@@ -41,6 +42,12 @@ inline Pack noise_pack(MappingKind mapping = MappingKind::permutation, Depth hei
   pack.layout = tile_index_layout(complete_edge_set(2, 2));
   pack.mapping = mapping == MappingKind::permutation ? permutation_mapping({6, 5}, set.colors, seed)
                                                      : mix_mapping({6, 5}, seed);
+  if (mapping == MappingKind::even) { // the same texels as corner-colored tiles
+    pack.colors = {0, 0, 2};
+    pack.tiles = complete_corner_set(2);
+    pack.layout = de_bruijn_layout(complete_corner_set(2));
+    pack.mapping = even_mapping({6, 5}, 2, seed);
+  }
   if (mapping == MappingKind::index) pack.mapping = index_mapping(pack.mapping, set.colors);
   for (int m = 0; m < 2; ++m) {
     const TileMap& map = set.maps[static_cast<std::size_t>(m)];

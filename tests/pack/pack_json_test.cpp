@@ -13,7 +13,8 @@ using nlohmann::json;
 
 namespace {
 
-const MappingKind all_mappings[] = {MappingKind::permutation, MappingKind::mix, MappingKind::index};
+const MappingKind all_mappings[] = {MappingKind::permutation, MappingKind::mix, MappingKind::even,
+                                    MappingKind::index};
 
 bool accepted(const json& changed) {
   try {

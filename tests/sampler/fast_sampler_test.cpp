@@ -192,6 +192,10 @@ TEST_CASE("corner-colored packs are looked up too") {
   check_all_targets(pack, TexelStorage::u8, float_rounding);
   pack.mapping = mix_mapping({1000, 1 << 20}, 4);
   check_all_targets(pack, TexelStorage::u8, float_rounding);
+  for (const VirtualSize size : {VirtualSize{6, 5}, VirtualSize{1000, 1 << 20}}) {
+    pack.mapping = even_mapping(size, 2, 4);
+    check_all_targets(pack, TexelStorage::u8, float_rounding);
+  }
 }
 
 TEST_CASE("odd tiles and tiles of one texel are looked up as others") {

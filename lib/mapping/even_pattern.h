@@ -1,0 +1,45 @@
+#pragma once
+
+#include "tilepack/mapping/mix_hash.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tilepack {
+
+/// The mapping "even": corner colors from a pattern, a torus of 64 x 64 colors in which no displacement of up
+/// to 8 tiles brings many tiles onto equal ones, and in which every window of 8 x 8 tiles shows all tiles
+/// about equally often. Independent random colors do neither: among 64 tiles drawn of 16, one is shown 9
+/// times, another not at all, and some displacement repeats a third of what is seen.
+///
+/// The pattern alone would repeat. So the plane is cut into blocks of 64 x 64 corners, and each block shows
+/// the pattern from another place, perhaps transposed or mirrored, and with the colors exchanged, all by a
+/// hash of the block. Corner colors are free, so blocks need not match where they meet.
+constexpr int even_pattern_side = 64;
+constexpr int even_block_bits = 6;
+
+/// Pattern colors row by row, for the numbers of corner colors for which has_even_pattern(). Found by
+/// tests/bench/even_pattern_search.cpp.
+std::vector<int> even_pattern(int colors);
+constexpr bool has_even_pattern(int colors) {
+  return colors >= 2 && colors <= 4;
+}
+
+/// The color, 0..colors-1, of corner (x, y), 0 <= x, y < 2^31. `keys` are the corner family's.
+///
+/// Bits of the block's word: 0..5 and 6..11 the place in the pattern, 12 mirrors x, 13 mirrors y, 14
+/// exchanges x and y, 16..31 the shift of colors.
+inline int even_color(const MixKeys& keys, const int* pattern, std::uint32_t x, std::uint32_t y, int colors) {
+  constexpr std::uint32_t mask = even_pattern_side - 1;
+  const std::uint32_t word = mix_word(keys, x >> even_block_bits, y >> even_block_bits);
+  std::uint32_t u = x + word;
+  std::uint32_t v = y + (word >> 6);
+  if (word & 1u << 12) u = ~u;
+  if (word & 1u << 13) v = ~v;
+  const std::uint32_t at = word & 1u << 14 ? (u & mask) * even_pattern_side + (v & mask)
+                                           : (v & mask) * even_pattern_side + (u & mask);
+  const int color = pattern[at] + color_of(word, colors);
+  return color < colors ? color : color - colors;
+}
+
+} // namespace tilepack
