@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tbb/task_group.h>
 
 #include <chrono>
 #include <filesystem>
@@ -178,13 +179,16 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   const std::vector<SampleMap> samples = read_samples(files, asked);
   const double read_seconds = watch.lap();
   const BakedPack made = baked(samples, options, progress);
-  report(progress, "figures", 0.5);
-  BakeStory story{fs::path(arguments.sample).filename().string(), bake_facts(made, samples), {}};
   const double bake_seconds = watch.lap();
+  // What the report says is found while files are written.
+  BakeStory story{fs::path(arguments.sample).filename().string(), {}, {}};
+  tbb::task_group figures;
+  figures.run([&] { story.facts = bake_facts(made, samples); });
   const PackDescription description = described(made.pack);
   const std::unique_ptr<StagedFile> depfile = staged_depfile(arguments, files, description);
   write_pack(made.pack, arguments.folder, progress);
   if (depfile) depfile->commit();
+  figures.wait();
   const double write_seconds = watch.lap();
   if (!arguments.report.empty()) {
     story.stages = clock.shares();

@@ -342,35 +342,44 @@ private:
     return strip.maps[strip.chosen][side.part];
   }
 
+  // What the tile's best inside would cost with each of the strip's candidates.
+  std::vector<double> least_misfits(std::size_t own, const std::array<Side, sides>& tile) const {
+    const StripChoices& strip = strips[own];
+    std::vector<std::size_t> parts;
+    MisfitMap rest(positions.count());
+    for (const Side& side : tile) {
+      if (side.strip == own) {
+        parts.push_back(side.part);
+        continue;
+      }
+      const MisfitMap& map = map_of(side);
+      for (std::size_t p = 0; p < rest.size(); ++p) rest[p] += map[p];
+    }
+    std::vector<double> costs;
+    if (parts.empty()) return costs;
+    for (const auto& maps : strip.maps) {
+      const MisfitMap& a = maps[parts.front()];
+      float least = std::numeric_limits<float>::max();
+      if (parts.size() == 1) {
+        for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p]);
+      } else {
+        const MisfitMap& b = maps[parts.back()];
+        for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p] + b[p]);
+      }
+      costs.push_back(static_cast<double>(least));
+    }
+    return costs;
+  }
+
   bool choose(std::size_t own) {
     StripChoices& strip = strips[own];
     std::vector<double> costs;
     for (const Candidate& c : strip.candidates) costs.push_back(uses[own] * c.misfit);
-    MisfitMap rest(positions.count());
-    for (const auto& tile : tiles) {
-      std::vector<std::size_t> parts;
-      std::fill(rest.begin(), rest.end(), 0.0f);
-      for (const Side& side : tile) {
-        if (side.strip == own) {
-          parts.push_back(side.part);
-          continue;
-        }
-        const MisfitMap& map = map_of(side);
-        for (std::size_t p = 0; p < rest.size(); ++p) rest[p] += map[p];
-      }
-      if (parts.empty()) continue;
-      for (std::size_t c = 0; c < costs.size(); ++c) {
-        const MisfitMap& a = strip.maps[c][parts.front()];
-        float least = std::numeric_limits<float>::max();
-        if (parts.size() == 1) {
-          for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p]);
-        } else {
-          const MisfitMap& b = strip.maps[c][parts.back()];
-          for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p] + b[p]);
-        }
-        costs[c] += static_cast<double>(least);
-      }
-    }
+    std::vector<std::vector<double>> of_tile(tiles.size()); // by candidate; none where the strip is not met
+    tbb::parallel_for(std::size_t{0}, tiles.size(),
+                      [&](std::size_t i) { of_tile[i] = least_misfits(own, tiles[i]); });
+    for (const auto& least : of_tile)
+      for (std::size_t c = 0; c < least.size(); ++c) costs[c] += least[c];
     const std::size_t before = strip.chosen;
     statistics.add(tally, shown_area(own, before), -uses[own]);
     for (std::size_t c = 0; c < costs.size(); ++c)

@@ -129,14 +129,14 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   };
   static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0},
                                              {1, 8, 0, 0, 0, 1},
-                                             {2, 8, 0, 4, 1, 1},
+                                             {1, 8, 0, 4, 1, 1},
                                              {2, 12, 0, 6, 1, 2},
-                                             {4, 12, 0, 8, 2, 2},
-                                             {6, 12, 0, 12, 2, 3},
-                                             {8, 16, 0, 16, 2, 3},
-                                             {16, 20, 2500, 24, 2, 4},
-                                             {24, 24, 2500, 32, 3, 5},
-                                             {48, 32, 2500, 48, 4, 6}}};
+                                             {2, 12, 0, 8, 2, 2},
+                                             {3, 12, 0, 12, 2, 3},
+                                             {4, 16, 0, 16, 2, 3},
+                                             {8, 20, 2500, 24, 2, 4},
+                                             {12, 24, 2500, 32, 3, 5},
+                                             {16, 32, 2500, 48, 4, 6}}};
   const Row& row = rows[static_cast<std::size_t>(effort)];
   FramedSetSettings settings;
   settings.frame.seed = seed;

@@ -132,6 +132,10 @@ struct Choice {
   std::int64_t misfit;
 };
 
+bool fits_better(const Choice& a, const Choice& b) {
+  return std::tuple(a.misfit, a.place.y, a.place.x) < std::tuple(b.misfit, b.place.y, b.place.x);
+}
+
 // The best position of each square block of positions, blocks as small as the limit allows.
 std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
   int block = 1;
@@ -190,10 +194,7 @@ void recount(const FeatureImage& image, const Shown& shown, int depth, std::size
              std::vector<Choice>& choices) {
   const std::size_t count = std::min(kept, choices.size());
   std::partial_sort(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(count), choices.end(),
-                    [](const Choice& a, const Choice& b) {
-                      return std::tuple(a.misfit, a.place.y, a.place.x) <
-                             std::tuple(b.misfit, b.place.y, b.place.x);
-                    });
+                    fits_better);
   choices.resize(count);
   for (Choice& choice : choices) choice.misfit = cut_misfit(image, shown, choice.place, depth);
 }
@@ -277,6 +278,7 @@ std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyram
     if (options.recounted > 0)
       recount(small, shown, std::max(1, shape.reach / scale), static_cast<std::size_t>(options.recounted),
               choices[id]);
+    std::sort(choices[id].begin(), choices[id].end(), fits_better);
   });
   report(progress, "interiors", 0.5);
 
@@ -293,11 +295,7 @@ std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyram
     return Rect{r.x * scale, r.y * scale, r.width * scale, r.height * scale};
   };
   double all_misfits = 0.0;
-  for (const auto& list : choices)
-    all_misfits +=
-        static_cast<double>(std::min_element(list.begin(), list.end(), [](const Choice& a, const Choice& b) {
-                              return a.misfit < b.misfit;
-                            })->misfit);
+  for (const auto& list : choices) all_misfits += static_cast<double>(list.front().misfit);
   const double average = static_cast<double>(tiles) * tile.width * tile.height /
                          (static_cast<double>(small.width) * small.height);
   std::vector<SourceTexel> places(tiles);
@@ -318,10 +316,12 @@ std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyram
       usage.prepare();
       double least = std::numeric_limits<double>::max();
       for (const Choice& choice : choices[id]) {
-        const double cost = static_cast<double>(choice.misfit) *
-                                (1.0 + options.freshness * usage.mean(inside(choice.place)) / average) +
-                            options.likeness * all_misfits *
-                                statistics.distance_with(tally, inside_in_sample(choice.place), 1.0);
+        if (static_cast<double>(choice.misfit) >= least) break; // nor do those after it cost less
+        double cost = static_cast<double>(choice.misfit) *
+                      (1.0 + options.freshness * usage.mean(inside(choice.place)) / average);
+        if (cost >= least) continue; // spares most of the looks at the statistics, which take longest
+        cost += options.likeness * all_misfits *
+                statistics.distance_with(tally, inside_in_sample(choice.place), 1.0);
         if (cost < least) {
           least = cost;
           places[id] = choice.place;

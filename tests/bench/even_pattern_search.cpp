@@ -1,6 +1,6 @@
 // Searches for the patterns of lib/mapping/even_pattern.cpp and prints one as C++.
 //
-//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 300 sweeps, some minutes
+//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 100 sweeps, some minutes
 //
 // A pattern is a torus of corner colors. Wherever one looks at it through a window of 8 x 8 or 16 x 16 tiles,
 // no displacement should bring many tiles onto equal ones, and all tiles should be shown about equally often.
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int side = 64;
 constexpr double pi = 3.14159265358979323846;
-constexpr double balance = 0.005; // weight of uneven counts
+constexpr double balance = 0.001; // weight of uneven counts
 
 struct Lag {
   int dx, dy;
@@ -48,7 +48,7 @@ public:
         tile(side * side) {
     for (std::size_t i = 0; i < corner.size(); ++i)
       corner[i] = static_cast<int>(tilepack::random_below(seed, "corner", i, static_cast<unsigned>(colors)));
-    scales.push_back(scale(8, 4, 4, 1.0));
+    scales.push_back(scale(8, 1, 4, 0.0625));
     scales.push_back(scale(16, 8, 8, 4.0));
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) tile[at(x, y)] = id(x, y);
@@ -64,7 +64,7 @@ public:
       const int y = static_cast<int>(bits / side % side);
       const double left = 1.0 - static_cast<double>(n) / static_cast<double>(steps);
       taken += recolored(x, y, 1 + static_cast<int>((bits >> 32) % static_cast<unsigned>(colors - 1)),
-                         0.04 * left * left * left);
+                         0.008 * left * left * left);
       if ((n + 1) % (steps / 8) == 0)
         std::fprintf(stderr, "%3.0f %%: %.4f, %llu steps taken\n", 100 * (1 - left), energy(),
                      static_cast<unsigned long long>(taken));
@@ -148,7 +148,7 @@ private:
                                      s.weight[x - wx] * s.weight[x + lag.dx - wx];
                    const double before = change(s.equal, w * s.lags.size() + l, by);
                    const double a = before * before, b = (before + by) * (before + by);
-                   more += b * b - a * a;
+                   more += b * b * b - a * a * a;
                  });
     return s.importance * more;
   }
@@ -207,7 +207,7 @@ private:
     for (const Scale& s : scales) {
       double worst = 0, uneven = 0;
       for (const double e : s.equal) {
-        sum += s.importance * e * e * e * e;
+        sum += s.importance * e * e * e * e * e * e;
         worst = std::max(worst, e);
       }
       for (const double v : s.share) uneven += (v - 1) * (v - 1);
@@ -235,7 +235,7 @@ private:
 
 int main(int argc, char** argv) {
   const int colors = argc > 1 ? std::atoi(argv[1]) : 2;
-  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 300;
+  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 100;
   Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
   search.run(sweeps);
   search.print();
