@@ -49,8 +49,9 @@ struct MappingStatistics {
   std::vector<FamilyStatistics> families; ///< tiles first; of an index mapping nothing else
 
   /// Sentences that name each fault found: repeats, runs twice as long as chance makes them, counts or pairs
-  /// over 6 standard deviations off. Of the mapping "even" only what goes beyond its purpose: near pairs
-  /// equal too often, and runs longer than a block. Empty: the mapping shows no pattern here.
+  /// over 6 standard deviations off. Of the mapping "even" only what goes beyond its purpose: pairs of
+  /// tiles equal half again as often as by chance, and runs longer than a block. Empty: the mapping shows no
+  /// pattern here.
   std::vector<std::string> faults;
 };
 

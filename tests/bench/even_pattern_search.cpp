@@ -1,6 +1,6 @@
 // Searches for the patterns of lib/mapping/even_pattern.cpp and prints one as C++.
 //
-//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 100 sweeps, some minutes
+//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 110 sweeps, some minutes
 //
 // A pattern is a torus of corner colors. Wherever one looks at it through a window of 8 x 8 or 16 x 16 tiles,
 // no displacement should bring many tiles onto equal ones, and all tiles should be shown about equally often.
@@ -48,8 +48,8 @@ public:
         tile(side * side) {
     for (std::size_t i = 0; i < corner.size(); ++i)
       corner[i] = static_cast<int>(tilepack::random_below(seed, "corner", i, static_cast<unsigned>(colors)));
-    scales.push_back(scale(8, 1, 4, 0.0625));
-    scales.push_back(scale(16, 8, 8, 4.0));
+    scales.push_back(scale(8, 2, 4, 0.25));
+    scales.push_back(scale(16, 8, 8, 1.2));
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) tile[at(x, y)] = id(x, y);
     for (Scale& s : scales) count(s);
@@ -148,7 +148,7 @@ private:
                                      s.weight[x - wx] * s.weight[x + lag.dx - wx];
                    const double before = change(s.equal, w * s.lags.size() + l, by);
                    const double a = before * before, b = (before + by) * (before + by);
-                   more += b * b * b - a * a * a;
+                   more += b * b - a * a;
                  });
     return s.importance * more;
   }
@@ -235,8 +235,8 @@ private:
 
 int main(int argc, char** argv) {
   const int colors = argc > 1 ? std::atoi(argv[1]) : 2;
-  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 100;
-  Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
+  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 110;
+  Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 2);
   search.run(sweeps);
   search.print();
 }
