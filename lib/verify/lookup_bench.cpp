@@ -1,6 +1,7 @@
 #include "tilepack/verify/lookup_bench.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/mapping/even_pattern.h"
 #include "tilepack/sampler/ground_truth.h"
 #include "tilepack/sampler/reference_sampler.h"
 #include "tilepack/sampler/virtual_texture.h"
@@ -25,6 +26,7 @@ constexpr std::size_t checked_every = 61; // samples of a frame compared with th
 Mapping mapping_of_kind(const Pack& pack, MappingKind kind, VirtualSize size, std::uint64_t seed) {
   const Mapping mix = mix_mapping(size, seed);
   if (kind == MappingKind::mix) return mix;
+  if (kind == MappingKind::even) return even_mapping(size, pack.colors.corner, seed);
   if (kind == MappingKind::permutation) return permutation_mapping(size, pack.colors, seed);
   return index_mapping(mix, pack.colors);
 }
@@ -141,7 +143,9 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
             [&, number, filter, weights] { look_up_frame(samplers[number], frame, filter, weights, out); });
       }
   };
-  for (const MappingKind kind : {MappingKind::index, MappingKind::permutation, MappingKind::mix}) {
+  for (const MappingKind kind :
+       {MappingKind::index, MappingKind::permutation, MappingKind::mix, MappingKind::even}) {
+    if (kind == MappingKind::even && !has_even_pattern(pack.colors.corner)) continue;
     bench_kind(kind, false);
     if (pack.corner_pack) bench_kind(kind, true);
   }
@@ -207,7 +211,8 @@ void bench_against_plain(const Pack& pack, int map, const BenchOptions& options,
   const Buffers out(packed.channels, LookupFrame::bucket);
   for (const auto& [kind, limit] :
        {std::pair{MappingKind::index, 0.9}, std::pair{MappingKind::permutation, 0.75},
-        std::pair{MappingKind::mix, 0.0}}) {
+        std::pair{MappingKind::mix, 0.0}, std::pair{MappingKind::even, 0.0}}) {
+    if (kind == MappingKind::even && !has_even_pattern(pack.colors.corner)) continue;
     Pack with = pack;
     with.mapping = mapping_of_kind(pack, kind, {256, 256}, options.seed);
     const FastSampler tiled(with, map);
