@@ -15,7 +15,7 @@ namespace {
 // Characters of 5 x 7 dots, a string a row, in the order of their names.
 constexpr int glyph_columns = 5;
 constexpr int glyph_rows = 7;
-constexpr std::string_view glyph_names = "0123456789ackimpx";
+constexpr std::string_view glyph_names = "0123456789aceikmnpvx";
 using Glyph = std::array<std::string_view, glyph_rows>;
 constexpr std::array<Glyph, glyph_names.size()> glyphs{{
     {" ### ", "#   #", "#  ##", "# # #", "##  #", "#   #", " ### "},
@@ -30,10 +30,13 @@ constexpr std::array<Glyph, glyph_names.size()> glyphs{{
     {" ### ", "#   #", "#   #", " ####", "    #", "    #", " ### "},
     {"     ", "     ", " ### ", "    #", " ####", "#   #", " ####"},
     {"     ", "     ", " ### ", "#   #", "#    ", "#   #", " ### "},
-    {"#    ", "#    ", "#  # ", "# #  ", "##   ", "# #  ", "#  # "},
+    {"     ", "     ", " ### ", "#   #", "#####", "#    ", " ### "},
     {"  #  ", "     ", " ##  ", "  #  ", "  #  ", "  #  ", " ### "},
+    {"#    ", "#    ", "#  # ", "# #  ", "##   ", "# #  ", "#  # "},
     {"     ", "     ", "## # ", "# # #", "# # #", "# # #", "# # #"},
+    {"     ", "     ", "#### ", "#   #", "#   #", "#   #", "#   #"},
     {"     ", "     ", "#### ", "#   #", "#### ", "#    ", "#    "},
+    {"     ", "     ", "#   #", "#   #", "#   #", " # # ", "  #  "},
     {"     ", "     ", "#   #", " # # ", "  #  ", " # # ", "#   #"},
 }};
 
