@@ -25,21 +25,27 @@ constexpr bool has_even_pattern(int colors) {
   return colors >= 2 && colors <= 4;
 }
 
-/// The color, 0..colors-1, of corner (x, y), 0 <= x, y < 2^31. `keys` are the corner family's.
-///
-/// Bits of the block's word: 0..5 and 6..11 the place in the pattern, 12 mirrors x, 13 mirrors y, 14
-/// exchanges x and y, 16..31 the shift of colors.
-inline int even_color(const MixKeys& keys, const int* pattern, std::uint32_t x, std::uint32_t y, int colors) {
+/// The word of the block in which corner (x, y) lies, 0 <= x, y < 2^31. `keys` are the corner family's. Its
+/// bits: 0..5 and 6..11 the place in the pattern, 12 mirrors x, 13 mirrors y, 14 exchanges x and y, 16..31
+/// the shift of colors.
+inline std::uint32_t even_word(const MixKeys& keys, std::uint32_t x, std::uint32_t y) {
+  return mix_word(keys, x >> even_block_bits, y >> even_block_bits);
+}
+
+/// The color, 0..colors-1, of corner (x, y) of a block with this word.
+inline int even_color(std::uint32_t word, const int* pattern, std::uint32_t x, std::uint32_t y, int colors) {
   constexpr std::uint32_t mask = even_pattern_side - 1;
-  const std::uint32_t word = mix_word(keys, x >> even_block_bits, y >> even_block_bits);
-  std::uint32_t u = x + word;
-  std::uint32_t v = y + (word >> 6);
-  if (word & 1u << 12) u = ~u;
-  if (word & 1u << 13) v = ~v;
-  const std::uint32_t at = word & 1u << 14 ? (u & mask) * even_pattern_side + (v & mask)
-                                           : (v & mask) * even_pattern_side + (u & mask);
-  const int color = pattern[at] + color_of(word, colors);
+  const std::uint32_t u = (x + word) ^ (0u - (word >> 12 & 1u));
+  const std::uint32_t v = (y + (word >> 6)) ^ (0u - (word >> 13 & 1u));
+  const bool exchanged = (word >> 14 & 1u) != 0;
+  const std::uint32_t column = (exchanged ? v : u) & mask;
+  const std::uint32_t row = (exchanged ? u : v) & mask;
+  const int color = pattern[row * even_pattern_side + column] + color_of(word, colors);
   return color < colors ? color : color - colors;
+}
+
+inline int even_color(const MixKeys& keys, const int* pattern, std::uint32_t x, std::uint32_t y, int colors) {
+  return even_color(even_word(keys, x, y), pattern, x, y, colors);
 }
 
 } // namespace tilepack
