@@ -7,10 +7,11 @@
 
 namespace tilepack {
 
-/// The mapping "even": corner colors from a pattern, a torus of 64 x 64 colors in which no displacement of up
-/// to 8 tiles brings many tiles onto equal ones, and in which every window of 8 x 8 tiles shows all tiles
-/// about equally often. Independent random colors do neither: among 64 tiles drawn of 16, one is shown 9
-/// times, another not at all, and some displacement repeats a third of what is seen.
+/// The mapping "even": corner colors from a pattern, a torus of 64 x 64 colors in which displacements of 1 to
+/// 4 tiles bring fewer tiles onto equal ones than chance would, wherever one looks, and all tiles are shown
+/// more evenly. With independent colors, half of all windows of 8 x 8 tiles of 2 colors show one tile 8 times
+/// or more where 4 is fair, a quarter lack one, and half have a displacement that repeats a third of what is
+/// seen.
 ///
 /// The pattern alone would repeat. So the plane is cut into blocks of 64 x 64 corners, and each block shows
 /// the pattern from another place, perhaps transposed or mirrored, and with the colors exchanged, all by a

@@ -354,17 +354,14 @@ std::int32_t place_of_cell(const FastTables& t, std::int32_t x, std::int32_t y) 
     return place(mixed_color(t.horizontal_keys, x, y, kh), mixed_color(t.horizontal_keys, x1, y, kh),
                  mixed_color(t.horizontal_keys, x, y1, kh), mixed_color(t.horizontal_keys, x1, y1, kh));
   case Lookup::even_corners: {
-    const std::int32_t block = (1 << even_block_bits) - 1;
-    if ((x & block) != block && (y & block) != block && x1 != 0 && y1 != 0) { // all corners in one block
-      const std::uint32_t word =
-          even_word(t.horizontal_keys, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-      const auto color = [&](std::int32_t i, std::int32_t j) {
-        return even_color(word, t.pattern, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), kh);
-      };
-      return place(color(x, y), color(x1, y), color(x, y1), color(x1, y1));
-    }
+    constexpr std::int32_t last = (1 << even_block_bits) - 1;
+    const bool one_block = (x & last) != last && (y & last) != last && x1 != 0 && y1 != 0;
+    const auto word_at = [&](std::int32_t i, std::int32_t j) {
+      return even_word(t.horizontal_keys, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+    };
+    const std::uint32_t word = word_at(x, y);
     const auto color = [&](std::int32_t i, std::int32_t j) {
-      return even_color(t.horizontal_keys, t.pattern, static_cast<std::uint32_t>(i),
+      return even_color(one_block ? word : word_at(i, j), t.pattern, static_cast<std::uint32_t>(i),
                         static_cast<std::uint32_t>(j), kh);
     };
     return place(color(x, y), color(x1, y), color(x, y1), color(x1, y1));
