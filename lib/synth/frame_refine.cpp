@@ -1,5 +1,6 @@
 #include "tilepack/synth/frame_refine.h"
 
+#include "tilepack/synth/border_step.h"
 #include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/strip_space.h"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 
 namespace tilepack {
@@ -17,39 +17,6 @@ namespace {
 constexpr double evenness = 400.0;
 // Joining smooths what lies inside the tiles a little, so that borders have to be calmer as well.
 constexpr double wanted_steps = 0.98;
-
-int step(const std::uint8_t* a, const std::uint8_t* b, int channels) {
-  int sum = 0;
-  for (int c = 0; c < channels; ++c) sum += std::abs(a[c] - b[c]);
-  return sum;
-}
-
-// Across a strip's edge, with the corner patches shown as far as their cuts run on average.
-double step_across(const FeatureImage& image, const FrameShape& shape, const StripSpace& space,
-                   SourceTexel place, SourceTexel first, SourceTexel second) {
-  const int half = shape.corner_reach / 2;
-  std::int64_t total = 0;
-  for (int along = 0; along < space.length; ++along) {
-    SourceTexel origin = place;
-    if (along < half) origin = corner_origin(space, first, false);
-    if (along >= space.length - half) origin = corner_origin(space, second, true);
-    const SourceTexel before = sum(origin, space.at(along, space.reach - 1));
-    const SourceTexel after = sum(origin, space.at(along, space.reach));
-    total +=
-        step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y), image.channels);
-  }
-  return static_cast<double>(total) / space.length;
-}
-
-double mean_step(const FeatureImage& image, Direction edge) {
-  const int dx = edge == Direction::vertical ? 1 : 0;
-  const int dy = 1 - dx;
-  std::int64_t total = 0;
-  for (int y = dy; y < image.height; ++y)
-    for (int x = dx; x < image.width; ++x)
-      total += step(image.texel(x - dx, y - dy), image.texel(x, y), image.channels);
-  return static_cast<double>(total) / (static_cast<double>(image.width - dx) * (image.height - dy));
-}
 
 struct Place {
   SourceTexel at;

@@ -1,5 +1,6 @@
 #include "tilepack/synth/frame_search.h"
 
+#include "tilepack/synth/border_step.h"
 #include "tilepack/synth/byte_rows.h"
 #include "tilepack/synth/frame_refine.h"
 #include "tilepack/synth/patch_search.h"
@@ -29,7 +30,8 @@ public:
       : image(feature_image), options(search_options),
         mean(channel_means({0, 0}, image.width, image.height)) {}
 
-  std::vector<Candidate> best(const PositionMap& map, const StripSpace& space, int depth) const {
+  std::vector<Candidate> best(const PositionMap& map, const FrameShape& shape, const StripSpace& space,
+                              SourceTexel first, SourceTexel second) const {
     std::vector<std::size_t> order(map.values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const std::size_t looked_at = std::min(order.size(), static_cast<std::size_t>(60 * options.candidates));
@@ -46,12 +48,12 @@ public:
             return std::abs(c.place.x - at.x) < 3 && std::abs(c.place.y - at.y) < 3;
           }))
         continue;
-      apart.push_back({at, static_cast<double>(map.values[order[i]]) / depth + unevenness(at, space)});
+      apart.push_back(
+          {at, static_cast<double>(map.values[order[i]]) / shape.corner_reach + unevenness(at, space)});
     }
-    // A border busier or calmer than the sample shows as a line.
-    const double usual = std::max(mean_step(space.direction), 1e-3);
+    const double usual = std::max(mean_step(image, space.direction), 1e-3);
     for (Candidate& c : apart) {
-      const double excess = step_across(c.place, space) / usual - 1.0;
+      const double excess = step_across(image, shape, space, c.place, first, second) / usual - 1.0;
       c.misfit *= 1.0 + options.calmness * excess * excess;
     }
     std::stable_sort(apart.begin(), apart.end(),
@@ -72,28 +74,6 @@ private:
     for (const std::int64_t s : sums)
       means.push_back(static_cast<double>(s) / (static_cast<double>(width) * height));
     return means;
-  }
-
-  // The mean step between neighbours across the middle of a strip, which tiles will show at their borders.
-  double step_across(SourceTexel at, const StripSpace& space) const {
-    std::int64_t total = 0;
-    for (int along = 0; along < space.length; ++along) {
-      const SourceTexel before = sum(at, space.at(along, space.reach - 1));
-      const SourceTexel after = sum(at, space.at(along, space.reach));
-      for (int c = 0; c < image.channels; ++c)
-        total += std::abs(image.texel(before.x, before.y)[c] - image.texel(after.x, after.y)[c]);
-    }
-    return static_cast<double>(total) / space.length;
-  }
-
-  double mean_step(Direction direction) const {
-    const int dx = direction == Direction::vertical ? 1 : 0;
-    std::int64_t total = 0;
-    for (int y = 0; y < image.height - 1; ++y)
-      for (int x = 0; x < image.width - 1; ++x)
-        for (int c = 0; c < image.channels; ++c)
-          total += std::abs(image.texel(x, y)[c] - image.texel(x + dx, y + 1 - dx)[c]);
-    return static_cast<double>(total) / (static_cast<double>(image.width) * image.height);
   }
 
   double unevenness(SourceTexel at, const StripSpace& space) const {
@@ -242,7 +222,7 @@ public:
       const SourceTexel second = corners[static_cast<std::size_t>(ends(i).second)];
       const PositionMap map = search.mismatches(end_overlap(image, shape, space, first, second));
       StripChoices& strip = strips[i];
-      strip.candidates = list.best(map, space, shape.corner_reach);
+      strip.candidates = list.best(map, shape, space, first, second);
       strip.maps.resize(strip.candidates.size());
       const bool swapped = space.direction == Direction::vertical;
       tbb::parallel_for(std::size_t{0}, strip.maps.size(), [&](std::size_t c) {
@@ -444,7 +424,8 @@ FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleS
   std::vector<FramePlan> plans(static_cast<std::size_t>(options.starts));
   std::vector<double> costs(plans.size());
   tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t start) {
-    FrameChoice choice(plain, turned, statistics, 1 << (levels - 1), small, search, options, start);
+    FrameChoice choice(plain, turned, statistics, 1 << (levels - 1), small, search, options,
+                       static_cast<std::uint64_t>(options.first_start) + start);
     costs[start] = choice.improve();
     plans[start] = choice.plan();
   });

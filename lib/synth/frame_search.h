@@ -11,12 +11,13 @@ namespace tilepack {
 /// How thoroughly a frame is looked for.
 struct FrameSearchOptions {
   std::uint64_t seed = 0;
-  int starts = 8;        ///< random choices of corner patches
-  int candidates = 12;   ///< places considered for each strip
-  int rounds = 3;        ///< passes over all strips
-  double evenness = 2;   ///< weight of a strip's deviation from the sample's mean color
-  double calmness = 4;   ///< weight of a strip's step across its edge being other than usual
-  double likeness = 300; ///< weight of the distance between all strips together and the sample's statistics
+  int starts = 8;         ///< random choices of corner patches
+  int first_start = 0;    ///< which of all thinkable ones is the first
+  int candidates = 12;    ///< places considered for each strip
+  int rounds = 3;         ///< passes over all strips
+  double evenness = 2;    ///< weight of a strip's deviation from the sample's mean color
+  double calmness = 4;    ///< weight of a strip's step across its edge being other than usual
+  double likeness = 1500; ///< weight of the distance between all strips together and the sample's statistics
 };
 
 /// Chooses the whole frame together.

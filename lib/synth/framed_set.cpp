@@ -1,9 +1,12 @@
 #include "tilepack/synth/framed_set.h"
 
 #include "tilepack/synth/frame.h"
+#include "tilepack/synth/strip_space.h"
+#include "tilepack/synth/usage.h"
 #include "tilepack/tileset/random.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -89,84 +92,63 @@ std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
   return fixed;
 }
 
-void polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std::uint8_t>& fixed,
-                 const FramedSetSettings& settings, std::string_view purpose, std::size_t index,
-                 SourceCanvas& canvas) {
-  PolishOptions coarse = settings.coarse_polish;
-  PolishOptions fine = settings.polish;
-  coarse.seed = fine.seed = random_bits(fine.seed, purpose, index);
-  if (pyramid.size() > 1) polish_at_half_size(pyramid[1], fixed, coarse, canvas);
-  polish(pyramid.front(), fixed, fine, canvas);
+// At half size and then at full size. Returns how unlike the sample the result is.
+double polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std::uint8_t>& fixed,
+                   Rect shown, PolishOptions coarse, PolishOptions fine,
+                   std::vector<SourceCanvas>& canvases) {
+  if (pyramid.size() > 1) polish(pyramid[1], 2, fixed, shown, coarse, canvases);
+  return polish(pyramid.front(), 1, fixed, shown, fine, canvases);
 }
 
 // Strips are mended before tiles are made of them, so that what crosses an edge is mended on both its sides.
 // The squares at the lattice points, which all strips there share, stay.
-void mend_frame(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const FrameShape& shape,
-                const FramedSetSettings& settings, Frame& frame) {
-  const std::size_t h = frame.horizontal.size();
-  tbb::parallel_for(std::size_t{0}, h + frame.vertical.size(), [&](std::size_t i) {
-    const bool horizontal = i < h;
-    SourceCanvas& canvas = horizontal ? frame.horizontal[i] : frame.vertical[i - h];
-    std::vector<std::uint8_t> fixed;
-    for (int y = 0; y < canvas.height; ++y)
-      for (int x = 0; x < canvas.width; ++x) {
-        const int from_end =
-            horizontal ? std::min(x, canvas.width - 1 - x) : std::min(y, canvas.height - 1 - y);
-        fixed.push_back(from_end < shape.guard);
-      }
-    MendOptions mend = settings.mend;
-    mend.spots = settings.strip_spots;
-    mend_spots(pyramid, search, fixed, mend, canvas);
-    polish_both(pyramid, fixed, settings, "polish strip", i, canvas);
+void mend_strips(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const FrameShape& shape,
+                 const FramedSetSettings& settings, Direction direction, std::vector<SourceCanvas>& strips) {
+  const StripSpace space = space_of(shape, direction);
+  const Rect all{0, 0, space.width(), space.height()};
+  std::vector<std::uint8_t> fixed;
+  for (int y = 0; y < all.height; ++y)
+    for (int x = 0; x < all.width; ++x) {
+      const int along = direction == Direction::horizontal ? x : y;
+      fixed.push_back(std::min(along, space.length - 1 - along) < shape.guard);
+    }
+  Usage nothing_shown(pyramid.back().width, pyramid.back().height);
+  nothing_shown.prepare();
+  MendOptions mend = settings.mend;
+  mend.spots = settings.strip_spots;
+  tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
+    mend_spots(pyramid, search, nothing_shown, fixed, mend, strips[i]);
   });
+  PolishOptions coarse = settings.coarse_polish;
+  PolishOptions fine = settings.polish;
+  coarse.freshness = fine.freshness = 0.0; // few strips could not show all of the sample if they wanted
+  const char* purpose = direction == Direction::horizontal ? "polish horizontal" : "polish vertical";
+  coarse.seed = fine.seed = random_bits(fine.seed, purpose, 0);
+  polish_both(pyramid, fixed, all, coarse, fine, strips);
 }
 
-} // namespace
-
-FramedSetSettings settings_for(int effort, std::uint64_t seed) {
-  struct Row {
-    int starts, candidates, recounted, spots, tries, polish_passes;
-  };
-  static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0},
-                                             {1, 8, 0, 0, 0, 1},
-                                             {1, 8, 0, 4, 1, 1},
-                                             {2, 12, 0, 6, 1, 2},
-                                             {2, 12, 0, 8, 2, 2},
-                                             {3, 12, 0, 12, 2, 3},
-                                             {4, 16, 0, 16, 2, 3},
-                                             {8, 20, 2500, 24, 2, 4},
-                                             {12, 24, 2500, 32, 3, 5},
-                                             {16, 32, 2500, 48, 4, 6}}};
-  const Row& row = rows[static_cast<std::size_t>(effort)];
-  FramedSetSettings settings;
-  settings.frame.seed = seed;
-  settings.frame.starts = row.starts;
-  settings.frame.candidates = row.candidates;
-  settings.interiors.seed = seed;
-  settings.interiors.recounted = row.recounted;
-  settings.mend.spots = row.spots;
-  settings.strip_spots = row.spots / 3;
-  settings.mend.tries = row.tries;
-  settings.polish.seed = seed;
-  settings.polish.passes = row.polish_passes;
-  settings.polish.doubt = 100;
-  settings.coarse_polish.passes = row.polish_passes;
-  settings.coarse_polish.reach = 6;
-  settings.coarse_polish.seam_threshold = 500;
-  return settings;
+Usage shown_at(const FeatureImage& small, int scale, const std::vector<SourceCanvas>& tiles) {
+  Usage usage(small.width, small.height);
+  for (const SourceCanvas& tile : tiles)
+    for (const SourceTexel s : tile.texels) usage.add({s.x / scale, s.y / scale, 1, 1}, 1.0);
+  usage.prepare();
+  return usage;
 }
 
-SourceMap framed_set(FeatureImage sample, const SynthOptions& options,
-                     const FramedSetSettings& settings, const Progress& progress) {
-  FrameShape shape = frame_shape(options, settings.reach, settings.corner_reach);
-  const std::vector<FeatureImage> pyramid =
-      pyramid_down_to(std::move(sample), shape.tile, settings.smallest_search_tile);
+struct FramedTiles {
+  std::vector<SourceCanvas> tiles;
+  double unlikeness = 0.0; // to the sample, see polish()
+};
+
+FramedTiles tiles_in_frame(const std::vector<FeatureImage>& pyramid, const SampleStatistics& statistics,
+                           const PatchSearch& search, const FrameShape& shape,
+                           const FramedSetSettings& settings, const Progress& progress) {
   const FeatureImage& image = pyramid.front();
-  const SampleStatistics statistics(image);
   const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
-  const PatchSearch search(pyramid.back());
   Frame frame = joined_frame(image, shape, plan);
-  mend_frame(pyramid, search, shape, settings, frame);
+  tbb::parallel_invoke(
+      [&] { mend_strips(pyramid, search, shape, settings, Direction::horizontal, frame.horizontal); },
+      [&] { mend_strips(pyramid, search, shape, settings, Direction::vertical, frame.vertical); });
   auto tiles = framed_tiles(shape, frame);
   const auto interiors =
       chosen_interiors(pyramid, search, statistics, shape, plan, tiles, settings.interiors, progress);
@@ -174,20 +156,82 @@ SourceMap framed_set(FeatureImage sample, const SynthOptions& options,
 
   report(progress, "mending", 0.0);
   const auto fixed = fixed_texels(shape);
+  const Usage usage = shown_at(pyramid.back(), 1 << (pyramid.size() - 1), tiles);
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
-    SourceCanvas canvas = with_margin(shape, plan, frame, id, tiles[id]);
-    mend_spots(pyramid, search, fixed, settings.mend, canvas);
-    polish_both(pyramid, fixed, settings, "polish tile", id, canvas);
-    tiles[id] = without_margin(shape, canvas);
+    tiles[id] = with_margin(shape, plan, frame, id, tiles[id]);
+    mend_spots(pyramid, search, usage, fixed, settings.mend, tiles[id]);
   });
+  report(progress, "mending", 0.3);
+  const int margin = margin_of(shape);
+  FramedTiles result;
+  result.unlikeness = polish_both(pyramid, fixed, {margin, margin, shape.tile.width, shape.tile.height},
+                                  settings.coarse_polish, settings.polish, tiles);
+  for (const SourceCanvas& canvas : tiles) result.tiles.push_back(without_margin(shape, canvas));
   report(progress, "mending", 1.0);
+  return result;
+}
+
+} // namespace
+
+FramedSetSettings settings_for(int effort, std::uint64_t seed) {
+  struct Row {
+    int starts, candidates, spots, tries, passes, sweeps, sets;
+  };
+  static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0, 1},
+                                             {1, 8, 0, 0, 1, 2, 1},
+                                             {1, 8, 2, 1, 2, 2, 1},
+                                             {2, 12, 3, 1, 3, 3, 1},
+                                             {2, 12, 4, 2, 3, 4, 1},
+                                             {3, 12, 4, 2, 4, 4, 1},
+                                             {3, 12, 6, 2, 6, 6, 1},
+                                             {3, 12, 8, 2, 8, 8, 1},
+                                             {3, 12, 8, 2, 10, 10, 2},
+                                             {3, 12, 8, 2, 12, 12, 3}}};
+  const Row& row = rows[static_cast<std::size_t>(effort)];
+  FramedSetSettings settings;
+  settings.frame.seed = seed;
+  settings.frame.starts = row.starts;
+  settings.frame.candidates = row.candidates;
+  settings.interiors.seed = seed;
+  settings.mend.spots = row.spots;
+  settings.strip_spots = row.spots;
+  settings.mend.tries = row.tries;
+  settings.polish.seed = seed;
+  settings.polish.passes = row.passes;
+  settings.polish.sweeps = row.sweeps;
+  settings.polish.freshness = 0.2;
+  settings.coarse_polish = settings.polish;
+  if (row.passes > 0) { // half as large, so that a pass more costs little
+    ++settings.coarse_polish.passes;
+    ++settings.coarse_polish.sweeps;
+  }
+  settings.coarse_polish.reach = 6;
+  settings.coarse_polish.seam_threshold = 500;
+  settings.sets = row.sets;
+  return settings;
+}
+
+SourceMap framed_set(FeatureImage sample, const SynthOptions& options, const FramedSetSettings& settings,
+                     const Progress& progress) {
+  FrameShape shape = frame_shape(options, settings.reach, settings.corner_reach);
+  const std::vector<FeatureImage> pyramid =
+      pyramid_down_to(std::move(sample), shape.tile, settings.smallest_search_tile);
+  const SampleStatistics statistics(pyramid.front());
+  const PatchSearch search(pyramid.back());
+  FramedTiles best;
+  for (int set = 0; set < settings.sets; ++set) {
+    FramedSetSettings own = settings;
+    own.frame.first_start += set * settings.frame.starts;
+    FramedTiles made = tiles_in_frame(pyramid, statistics, search, shape, own, progress);
+    if (set == 0 || made.unlikeness < best.unlikeness) best = std::move(made);
+  }
 
   SourceMap result{options.tile_size, options.colors, {}, {}, options.guard};
   if (options.coloring == Coloring::corner)
     result.tiles = complete_corner_set(options.colors.corner);
   else
     result.tiles = complete_edge_set(options.colors.horizontal, options.colors.vertical);
-  for (auto& tile : tiles) result.texels.push_back(std::move(tile.texels));
+  for (auto& tile : best.tiles) result.texels.push_back(std::move(tile.texels));
   return result;
 }
 

@@ -1,7 +1,7 @@
 #include "tilepack/synth/interiors.h"
 
 #include "tilepack/synth/cut_move.h"
-#include "tilepack/synth/path_cut.h"
+#include "tilepack/synth/usage.h"
 #include "tilepack/tileset/random.h"
 
 #include <tbb/parallel_for.h>
@@ -64,69 +64,6 @@ Overlap overlap_of(const Shown& shown) {
   return overlap;
 }
 
-// How often each part of the sample is shown, in squares of a few texels of the search level. Weights are per
-// tile of the set: a strip counts for all the tiles it lies in.
-class Usage {
-public:
-  Usage(int image_width, int image_height, int square_side)
-      : square(square_side), columns((image_width + square - 1) / square),
-        rows((image_height + square - 1) / square),
-        count(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
-
-  void add(Rect area, double weight) {
-    for_squares(area, [&](std::size_t i) { count[i] += weight; });
-  }
-
-  void prepare() {
-    const std::size_t stride = static_cast<std::size_t>(columns) + 1;
-    sums.assign(stride * (static_cast<std::size_t>(rows) + 1), 0.0);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(rows); ++j) {
-      double run = 0.0;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(columns); ++i) {
-        run += count[j * static_cast<std::size_t>(columns) + i];
-        sums[(j + 1) * stride + i + 1] = sums[j * stride + i + 1] + run;
-      }
-    }
-  }
-
-  // The mean over `area`, of the state when prepare() was called.
-  double mean(Rect area) const {
-    const Bounds b = bounds(area);
-    const std::size_t stride = static_cast<std::size_t>(columns) + 1;
-    const double total = sums[b.last_y * stride + b.last_x] - sums[b.first_y * stride + b.last_x] -
-                         sums[b.last_y * stride + b.first_x] + sums[b.first_y * stride + b.first_x];
-    return total / static_cast<double>((b.last_x - b.first_x) * (b.last_y - b.first_y));
-  }
-
-private:
-  struct Bounds {
-    std::size_t first_x, first_y, last_x, last_y; // last: one past
-  };
-  Bounds bounds(Rect a) const {
-    const auto start = [&](int v) { return std::max(0, (v + square / 2) / square); };
-    const auto end = [&](int v, int first, int limit) {
-      return std::min(limit, std::max(first + 1, (v + square / 2) / square));
-    };
-    const int x = std::min(start(a.x), columns - 1);
-    const int y = std::min(start(a.y), rows - 1);
-    return {static_cast<std::size_t>(x), static_cast<std::size_t>(y),
-            static_cast<std::size_t>(end(a.x + a.width, x, columns)),
-            static_cast<std::size_t>(end(a.y + a.height, y, rows))};
-  }
-  template <typename Visit>
-  void for_squares(Rect area, Visit&& visit) {
-    const Bounds b = bounds(area);
-    for (std::size_t j = b.first_y; j < b.last_y; ++j)
-      for (std::size_t i = b.first_x; i < b.last_x; ++i) visit(j * static_cast<std::size_t>(columns) + i);
-  }
-
-  int square;
-  int columns;
-  int rows;
-  std::vector<double> count;
-  std::vector<double> sums;
-};
-
 struct Choice {
   SourceTexel place;
   std::int64_t misfit;
@@ -155,57 +92,22 @@ std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
   return choices;
 }
 
-// How well a window joins the strips: for each side of the tile the cost of the best cut from end to end,
-// through what is known of it there. Nearer to the truth than the mismatch of the whole overlap, but too slow
-// to be counted everywhere.
-std::int64_t cut_misfit(const FeatureImage& image, const Shown& shown, SourceTexel place, int depth) {
-  const int w = shown.features.width;
-  const int h = shown.features.height;
-  std::int64_t sum = 0;
-  for (int side = 0; side < 4; ++side) {
-    const bool horizontal = side < 2;
-    const bool far = side % 2 == 1;
-    const int length = horizontal ? w : h;
-    const int across = std::min(depth, (horizontal ? h : w) / 2);
-    MismatchGrid grid{length, across, {}};
-    grid.values.reserve(static_cast<std::size_t>(length) * static_cast<std::size_t>(across));
-    for (int along = 0; along < length; ++along)
-      for (int k = 0; k < across; ++k) {
-        const int from_border = far ? (horizontal ? h : w) - 1 - k : k;
-        const int x = horizontal ? along : from_border;
-        const int y = horizontal ? from_border : along;
-        const bool known = shown.known[static_cast<std::size_t>(y * w + x)] != 0;
-        grid.values.push_back(known ? squared_difference(image.texel(place.x + x, place.y + y),
-                                                         shown.features.texel(x, y), image.channels)
-                                    : 0);
-      }
-    std::vector<CutRange> ranges;
-    for (int along = 0; along < length; ++along) {
-      const int room = std::min({across, along + 1, length - along}); // the diagonals bound the side
-      ranges.push_back({std::min(1, room), room});
-    }
-    sum += minimum_error_cut(grid, ranges, std::min(1, across)).cost;
-  }
-  return sum;
+// What is seen of a strip: cuts run half-way between border and reach.
+Rect shown_part(const FrameShape& shape, SourceTexel strip, bool horizontal) {
+  const int shown = shape.reach;
+  const int across = shape.reach - shown / 2;
+  return horizontal ? Rect{strip.x, strip.y + across, shape.tile.width, shown}
+                    : Rect{strip.x + across, strip.y, shown, shape.tile.height};
 }
 
-// Of the choices with the least mismatch, their misfit counted anew as the cost of cuts.
-void recount(const FeatureImage& image, const Shown& shown, int depth, std::size_t kept,
-             std::vector<Choice>& choices) {
-  const std::size_t count = std::min(kept, choices.size());
-  std::partial_sort(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(count), choices.end(),
-                    fits_better);
-  choices.resize(count);
-  for (Choice& choice : choices) choice.misfit = cut_misfit(image, shown, choice.place, depth);
-}
-
+// A strip counts once, though it is shown in many tiles: whatever the insides are, it is, and an inside that
+// shows it too wastes no more room than one that shows another inside again.
 void add_strips(const FrameShape& shape, const FramePlan& plan, int scale, Usage& usage) {
-  const double h = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.horizontal.size());
-  const double v = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.vertical.size());
-  for (const SourceTexel& p : plan.horizontal)
-    usage.add({p.x / scale, p.y / scale, shape.tile.width / scale, 2 * shape.reach / scale}, h);
-  for (const SourceTexel& p : plan.vertical)
-    usage.add({p.x / scale, p.y / scale, 2 * shape.reach / scale, shape.tile.height / scale}, v);
+  const auto add = [&](Rect r) {
+    usage.add({r.x / scale, r.y / scale, r.width / scale, r.height / scale}, 1.0);
+  };
+  for (const SourceTexel& p : plan.horizontal) add(shown_part(shape, p, true));
+  for (const SourceTexel& p : plan.vertical) add(shown_part(shape, p, false));
 }
 
 SampleStatistics::Tally strips_tally(const FrameShape& shape, const FramePlan& plan,
@@ -213,11 +115,8 @@ SampleStatistics::Tally strips_tally(const FrameShape& shape, const FramePlan& p
   SampleStatistics::Tally tally = statistics.empty();
   const double h = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.horizontal.size());
   const double v = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.vertical.size());
-  const int shown = shape.reach; // the cut runs half-way between border and reach
-  for (const SourceTexel& p : plan.horizontal)
-    statistics.add(tally, {p.x, p.y + shape.reach - shown / 2, shape.tile.width, shown}, h);
-  for (const SourceTexel& p : plan.vertical)
-    statistics.add(tally, {p.x + shape.reach - shown / 2, p.y, shown, shape.tile.height}, v);
+  for (const SourceTexel& p : plan.horizontal) statistics.add(tally, shown_part(shape, p, true), h);
+  for (const SourceTexel& p : plan.vertical) statistics.add(tally, shown_part(shape, p, false), v);
   return tally;
 }
 
@@ -275,9 +174,6 @@ std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyram
     Shown shown = shown_by(pyramid.front(), shape, framed[id]);
     for (int level = 1; level < levels; ++level) shown = halved_shown(shown);
     choices[id] = block_minima(search.mismatches(overlap_of(shown)), limit);
-    if (options.recounted > 0)
-      recount(small, shown, std::max(1, shape.reach / scale), static_cast<std::size_t>(options.recounted),
-              choices[id]);
     std::sort(choices[id].begin(), choices[id].end(), fits_better);
   });
   report(progress, "interiors", 0.5);

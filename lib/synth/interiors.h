@@ -21,11 +21,10 @@ bool in_guard(const FrameShape& shape, int x, int y);
 
 struct InteriorOptions {
   std::uint64_t seed = 0;
-  double freshness = 4.0; ///< at f, a part shown as often as the average makes a fit count 1 + f times as bad
+  double freshness = 8.0; ///< at f, a part shown as often as the average makes a fit count 1 + f times as bad
   double likeness = 1500.0; ///< weight of the distance between what the set shows and the sample's statistics
-  int rounds = 3;          ///< passes over all tiles
-  int recounted = 0; ///< windows of least mismatch whose cuts are counted; the others are dropped. 0: none
-  std::int64_t bias = 0; ///< see apply_move
+  int rounds = 6;           ///< passes over all tiles
+  std::int64_t bias = 10;   ///< see apply_move
 };
 
 /// Chooses a window of the sample for the inside of each tile, all tiles together: by how it fits the tile's

@@ -113,9 +113,22 @@ void rule_out_material_of(PositionMap& map, const SourceCanvas& canvas, Rect are
     }
 }
 
+void favour_fresh(PositionMap& map, const Usage& usage, Size window, double freshness) {
+  const double average = usage.mean();
+  if (average <= 0.0 || freshness <= 0.0) return;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      std::int64_t& misfit = map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                                        static_cast<std::size_t>(x)];
+      if (misfit == ruled_out) continue;
+      const double often = usage.mean({x, y, window.width, window.height}) / average;
+      misfit = static_cast<std::int64_t>(static_cast<double>(misfit) * (1.0 + freshness * often));
+    }
+}
+
 } // namespace
 
-void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search,
+void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const Usage& usage,
                 const std::vector<std::uint8_t>& fixed, const MendOptions& options, SourceCanvas& canvas) {
   const FeatureImage& image = pyramid.front();
   const int scale = 1 << (pyramid.size() - 1);
@@ -131,6 +144,7 @@ void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& sea
       return;
     PositionMap map = search.mismatches(shown_in(image, canvas, area, scale));
     rule_out_material_of(map, canvas, area, scale);
+    favour_fresh(map, usage, {area.width / scale, area.height / scale}, options.freshness);
     const Overlap full = shown_in(image, canvas, area, 1);
     Move move{area, {}, {}};
     for (int y = area.y; y < area.y + area.height; ++y)
@@ -145,7 +159,7 @@ void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& sea
           best_near(image, full, {at % map.width * scale, at / map.width * scale}, scale);
       rule_out(map, place, scale);
       move.origin = {place.x - area.x, place.y - area.y};
-      changed = apply_move(image, canvas, move, options.bias) || changed;
+      changed = apply_move(image, canvas, move) || changed;
     }
     if (changed) costs = seams_at_texels(image, canvas);
   }

@@ -2,16 +2,17 @@
 
 #include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/source_canvas.h"
+#include "tilepack/synth/usage.h"
 
 #include <vector>
 
 namespace tilepack {
 
 struct MendOptions {
-  int spots = 12;  ///< places mended in a canvas
-  int window = 28; ///< side of the square of new material, texels
-  int tries = 2;   ///< windows of the sample tried at each
-  std::int64_t bias = 0;
+  int spots = 12;         ///< places mended in a canvas
+  int window = 28;        ///< side of the square of new material, texels
+  int tries = 2;          ///< windows of the sample tried at each
+  double freshness = 4.0; ///< at f, a window shown as often as the average counts 1 + f times as unlike
 };
 
 /// Re-places what joins worst: again and again the square with the highest seam costs is looked up in the
@@ -19,7 +20,8 @@ struct MendOptions {
 /// it along best cuts. The seam energy never rises.
 ///
 /// `pyramid[0]` is the sample; `search` searches the last level. `fixed`: texels that must stay, 1 each.
-void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search,
+/// `usage`: what the set shows of the last level, prepared; of one that counts nothing any window is fresh.
+void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const Usage& usage,
                 const std::vector<std::uint8_t>& fixed, const MendOptions& options, SourceCanvas& canvas);
 
 } // namespace tilepack

@@ -1,7 +1,10 @@
 #include "tilepack/synth/polish.h"
 
 #include "tilepack/synth/byte_rows.h"
+#include "tilepack/synth/usage.h"
 #include "tilepack/tileset/random.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
@@ -12,55 +15,151 @@ namespace {
 constexpr int half = 3; // squares are 2 half + 1 texels wide
 constexpr int side = 2 * half + 1;
 
-class Polish {
-public:
-  Polish(const FeatureImage& feature_image, const std::vector<std::uint8_t>& fixed_texels,
-         const PolishOptions& polish_options, SourceCanvas& source_canvas)
-      : image(feature_image), fixed(fixed_texels), options(polish_options), canvas(source_canvas),
-        channels(static_cast<std::size_t>(image.channels)),
-        image_end(image.values.data() + image.values.size()) {}
+// What a match in a part of the sample costs beyond its difference, in 1 / unit of that.
+struct Prices {
+  static constexpr int unit = 64;
+  int square = 1; // each holds for so many texels a side, by where a match has its middle
+  int columns = 0;
+  std::vector<std::uint16_t> values; // none: nothing anywhere
 
-  void run() {
-    find_active();
+  int at(SourceTexel s) const {
+    if (values.empty()) return 0;
+    return values[static_cast<std::size_t>(s.y / square) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>(s.x / square)];
+  }
+};
+
+constexpr SourceTexel inactive{-1, -1};
+
+SourceTexel inside(const FeatureImage& image, SourceTexel s) {
+  return {std::clamp(s.x, half, image.width - 1 - half), std::clamp(s.y, half, image.height - 1 - half)};
+}
+
+// For each texel of a canvas the middle of the square in the sample that is like the square round it: the
+// square it stems from, near seams; `inactive` elsewhere.
+std::vector<SourceTexel> first_matches(const FeatureImage& image, const PolishOptions& options,
+                                       const SourceCanvas& canvas) {
+  const auto costs = seams_at_texels(image, canvas);
+  std::vector<SourceTexel> match(canvas.texels.size(), inactive);
+  for (int seam_y = 0; seam_y < canvas.height; ++seam_y)
+    for (int seam_x = 0; seam_x < canvas.width; ++seam_x) {
+      if (costs[canvas.index(seam_x, seam_y)] <= options.seam_threshold) continue;
+      const int first_x = std::max(half, seam_x - options.reach);
+      const int last_x = std::min(canvas.width - 1 - half, seam_x + options.reach);
+      const int last_y = std::min(canvas.height - 1 - half, seam_y + options.reach);
+      for (int y = std::max(half, seam_y - options.reach); y <= last_y; ++y)
+        for (int x = first_x; x <= last_x; ++x) match[canvas.index(x, y)] = inside(image, canvas.at(x, y));
+    }
+  return match;
+}
+
+// One pass over one canvas.
+class PolishPass {
+public:
+  PolishPass(const FeatureImage& feature_image, const Prices& sample_prices,
+             const std::vector<std::uint8_t>& fixed_texels, const PolishOptions& polish_options,
+             SourceCanvas& source_canvas, std::vector<SourceTexel>& matches)
+      : image(feature_image), prices(sample_prices), fixed(fixed_texels), options(polish_options),
+        canvas(source_canvas), match(matches), channels(static_cast<std::size_t>(image.channels)),
+        image_end(image.values.data() + image.values.size()) {
+    for (std::size_t i = 0; i < match.size(); ++i)
+      if (match[i] != inactive) active.push_back(i);
     if (active.empty()) return;
     shown.resize(canvas.texels.size() * channels + byte_row_slack);
-    for (std::size_t i = 0; i < canvas.texels.size(); ++i) show(i);
-    match.resize(canvas.texels.size());
+    for (std::size_t i = 0; i < canvas.texels.size(); ++i) {
+      const SourceTexel s = canvas.texels[i];
+      std::copy_n(image.texel(s.x, s.y), channels, shown.begin() + static_cast<std::ptrdiff_t>(i * channels));
+    }
     distance.resize(canvas.texels.size());
-    for (const std::size_t i : active) match[i] = inside(canvas.texels[i]);
-    for (int pass = 0; pass < options.passes; ++pass) {
-      look_up(pass);
-      vote();
+  }
+
+  // Finds a match for each square. `stream` tells passes and canvases apart.
+  void look_up(std::uint64_t stream) {
+    for (const std::size_t i : active)
+      distance[i] = priced(match[i], difference(i, match[i], std::numeric_limits<int>::max()));
+    for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+      const std::uint64_t trials = random_bits(stream, "polish trials", static_cast<std::uint64_t>(sweep));
+      const bool forward = sweep % 2 == 0;
+      const int step = forward ? 1 : -1;
+      for (std::size_t n = 0; n < active.size(); ++n) {
+        const std::size_t i = forward ? active[n] : active[active.size() - 1 - n];
+        if (distance[i] == 0) continue;
+        const SourceTexel beside = match[i - static_cast<std::size_t>(step)];
+        const SourceTexel above = match[i - static_cast<std::size_t>(step * canvas.width)];
+        if (beside != inactive) try_match(i, inside(image, {beside.x + step, beside.y}));
+        if (above != inactive) try_match(i, inside(image, {above.x, above.y + step}));
+        std::uint64_t bits = mixed(trials + i);
+        for (int radius = std::max(image.width, image.height); radius >= 1; radius /= 4) {
+          const auto offset = [&](std::uint64_t word) {
+            return static_cast<int>((word * static_cast<std::uint64_t>(2 * radius + 1)) >> 32) - radius;
+          };
+          const SourceTexel at = match[i];
+          try_match(i, inside(image, {at.x + offset(bits & 0xffffffffu), at.y + offset(bits >> 32)}));
+          bits = mixed(bits + 0x9e3779b97f4a7c15u);
+        }
+      }
+    }
+  }
+
+  std::int64_t unlikeness() const {
+    std::int64_t sum = 0;
+    for (const std::size_t i : active) sum += distance[i];
+    return sum;
+  }
+
+  // Replaces each texel by what is nearest to the mean of what the matches of its squares show in its place.
+  void vote() {
+    switch (channels) {
+    case 1:
+      return vote_of<1>();
+    case 3:
+      return vote_of<3>();
+    default:
+      return vote_of<0>();
     }
   }
 
 private:
-  int x_of(std::size_t i) const { return static_cast<int>(i % static_cast<std::size_t>(canvas.width)); }
-  int y_of(std::size_t i) const { return static_cast<int>(i / static_cast<std::size_t>(canvas.width)); }
-
-  // Middles of squares: texels near a seam whose square lies inside the canvas.
-  void find_active() {
-    const auto costs = seams_at_texels(image, canvas);
-    is_active.assign(canvas.texels.size(), 0);
-    for (std::size_t i = 0; i < costs.size(); ++i) {
-      if (costs[i] <= options.seam_threshold) continue;
-      const int first_x = std::max(half, x_of(i) - options.reach);
-      const int last_x = std::min(canvas.width - 1 - half, x_of(i) + options.reach);
-      const int last_y = std::min(canvas.height - 1 - half, y_of(i) + options.reach);
-      for (int y = std::max(half, y_of(i) - options.reach); y <= last_y; ++y)
-        for (int x = first_x; x <= last_x; ++x) is_active[canvas.index(x, y)] = 1;
-    }
-    for (std::size_t i = 0; i < is_active.size(); ++i)
-      if (is_active[i]) active.push_back(i);
+  // `known`: the number of channels, if the compiler shall know it.
+  template <std::size_t known>
+  void vote_of() {
+    const std::size_t n = known > 0 ? known : channels;
+    std::vector<std::uint16_t> sum(canvas.texels.size() * n); // 49 × 255 at most
+    std::vector<std::uint8_t> votes(canvas.texels.size());
+    for_each_row([&](std::size_t i, SourceTexel, const std::uint8_t* row) {
+      for (std::size_t k = 0; k < side * n; ++k)
+        sum[i * n + k] = static_cast<std::uint16_t>(sum[i * n + k] + row[k]);
+      for (std::size_t k = 0; k < side; ++k) ++votes[i + k];
+    });
+    // Differences from the mean, times the number of votes: (49 × 255)² × 16 fits 32 bits.
+    std::vector<std::uint32_t> least(canvas.texels.size(), std::numeric_limits<std::uint32_t>::max());
+    std::vector<SourceTexel> nearest(canvas.texels.size());
+    for_each_row([&](std::size_t i, SourceTexel s, const std::uint8_t* row) {
+      for (std::size_t k = 0; k < side; ++k, ++i, ++s.x, row += n) {
+        std::uint32_t d = 0;
+        for (std::size_t c = 0; c < n; ++c) {
+          const int e = votes[i] * row[c] - sum[i * n + c];
+          d += static_cast<std::uint32_t>(e * e);
+        }
+        if (d < least[i]) {
+          least[i] = d;
+          nearest[i] = s;
+        }
+      }
+    });
+    for (const std::size_t i : active)
+      if (!fixed[i]) canvas.texels[i] = nearest[i];
   }
 
-  void show(std::size_t i) {
-    const SourceTexel s = canvas.texels[i];
-    std::copy_n(image.texel(s.x, s.y), channels, shown.begin() + static_cast<std::ptrdiff_t>(i * channels));
-  }
-
-  SourceTexel inside(SourceTexel s) const {
-    return {std::clamp(s.x, half, image.width - 1 - half), std::clamp(s.y, half, image.height - 1 - half)};
+  // visit(index of the first of `side` texels, the sample texel proposed for it, the values of these texels),
+  // row by row of each square.
+  template <typename Visit>
+  void for_each_row(Visit&& visit) const {
+    for (const std::size_t j : active)
+      for (int dy = -half; dy <= half; ++dy) {
+        const SourceTexel s{match[j].x - half, match[j].y + dy};
+        visit(j + static_cast<std::size_t>(dy * canvas.width - half), s, image.texel(s.x, s.y));
+      }
   }
 
   // The squared difference of two squares, or some number >= limit if it is not below it.
@@ -84,143 +183,135 @@ private:
     return sum;
   }
 
+  int priced(SourceTexel s, int d) const {
+    return static_cast<int>(
+        std::min<std::int64_t>(std::numeric_limits<int>::max(),
+                               static_cast<std::int64_t>(d) * (Prices::unit + prices.at(s)) / Prices::unit));
+  }
+
   void try_match(std::size_t i, SourceTexel s) {
     if (s == match[i]) return;
     const int d = difference(i, s, distance[i]);
-    if (d < distance[i]) {
-      distance[i] = d;
-      match[i] = s;
-    }
-  }
-
-  void look_up(int pass) {
-    for (const std::size_t i : active) distance[i] = difference(i, match[i], std::numeric_limits<int>::max());
-    for (int sweep = 0; sweep < options.sweeps; ++sweep) {
-      const bool forward = sweep % 2 == 0;
-      const int step = forward ? 1 : -1;
-      for (std::size_t n = 0; n < active.size(); ++n) {
-        const std::size_t i = forward ? active[n] : active[active.size() - 1 - n];
-        if (distance[i] == 0) continue;
-        const std::size_t beside = i - static_cast<std::size_t>(step);
-        const std::size_t above = i - static_cast<std::size_t>(step * canvas.width);
-        if (is_active[beside]) try_match(i, inside({match[beside].x + step, match[beside].y}));
-        if (is_active[above]) try_match(i, inside({match[above].x, match[above].y + step}));
-        std::uint64_t bits =
-            random_bits(options.seed, "polish", (static_cast<std::uint64_t>(pass * 64 + sweep) << 32) + i);
-        for (int radius = std::max(image.width, image.height); radius >= 1; radius /= 4) {
-          const auto offset = [&](std::uint64_t word) {
-            return static_cast<int>((word * static_cast<std::uint64_t>(2 * radius + 1)) >> 32) - radius;
-          };
-          const SourceTexel at = match[i];
-          try_match(i, inside({at.x + offset(bits & 0xffffffffu), at.y + offset(bits >> 32)}));
-          bits = mixed(bits + 0x9e3779b97f4a7c15u);
-        }
-      }
-    }
-  }
-
-  void vote() {
-    std::vector<SourceTexel> chosen(active.size());
-    std::vector<SourceTexel> proposals;
-    std::vector<double> weights;
-    std::vector<double> mean(channels);
-    const double doubt = options.doubt * side * side * static_cast<double>(channels);
-    weight.resize(canvas.texels.size());
-    for (const std::size_t i : active) weight[i] = 1.0 / (static_cast<double>(distance[i]) + doubt);
-    for (std::size_t n = 0; n < active.size(); ++n) {
-      const std::size_t i = active[n];
-      chosen[n] = canvas.texels[i];
-      if (fixed[i]) continue;
-      proposals.clear();
-      weights.clear();
-      bool news = false;
-      const int x = x_of(i);
-      const int y = y_of(i);
-      const int left = std::max(-half, -x);
-      const int right = std::min(half, canvas.width - 1 - x);
-      const int bottom = std::min(half, canvas.height - 1 - y);
-      for (int dy = std::max(-half, -y); dy <= bottom; ++dy)
-        for (int dx = left; dx <= right; ++dx) {
-          const std::size_t j = i + static_cast<std::size_t>(dy * canvas.width + dx);
-          if (!is_active[j]) continue;
-          const SourceTexel s{match[j].x - dx, match[j].y - dy};
-          news = news || s != chosen[n];
-          proposals.push_back(s);
-          weights.push_back(weight[j]);
-        }
-      if (!news) continue;
-      double total = 0.0;
-      std::fill(mean.begin(), mean.end(), 0.0);
-      for (std::size_t k = 0; k < proposals.size(); ++k) {
-        const std::uint8_t* texel = image.texel(proposals[k].x, proposals[k].y);
-        for (std::size_t c = 0; c < channels; ++c) mean[c] += weights[k] * texel[c];
-        total += weights[k];
-      }
-      for (double& m : mean) m /= total;
-      double least = std::numeric_limits<double>::max();
-      for (std::size_t k = 0; k < proposals.size(); ++k) {
-        const std::uint8_t* texel = image.texel(proposals[k].x, proposals[k].y);
-        double d = 0.0;
-        for (std::size_t c = 0; c < channels; ++c) {
-          const double e = texel[c] - mean[c];
-          d += e * e;
-        }
-        if (d < least) {
-          least = d;
-          chosen[n] = proposals[k];
-        }
-      }
-    }
-    for (std::size_t n = 0; n < active.size(); ++n) {
-      canvas.texels[active[n]] = chosen[n];
-      show(active[n]);
-    }
+    if (d >= distance[i]) return;
+    const int cost = priced(s, d);
+    if (cost >= distance[i]) return;
+    distance[i] = cost;
+    match[i] = s;
   }
 
   const FeatureImage& image;
+  const Prices& prices;
   const std::vector<std::uint8_t>& fixed;
   const PolishOptions& options;
   SourceCanvas& canvas;
+  std::vector<SourceTexel>& match;
   std::size_t channels;
   const std::uint8_t* image_end;
-  std::vector<std::size_t> active;     // middles of squares, row by row
-  std::vector<std::uint8_t> is_active; // by texel
-  std::vector<std::uint8_t> shown;     // what the canvas shows
-  std::vector<SourceTexel> match;      // middle of the like square in the sample, by texel
-  std::vector<int> distance;
-  std::vector<double> weight; // of a square's proposals
+  std::vector<std::size_t> active; // middles of squares, row by row
+  std::vector<std::uint8_t> shown; // what the canvas shows
+  std::vector<int> distance;       // of each square to its match
 };
+
+// By how often the canvases show the surroundings of a texel.
+Prices prices_of(const FeatureImage& image, const std::vector<SourceCanvas>& canvases, Rect shown, int scale,
+                 double freshness) {
+  if (freshness <= 0.0) return {};
+  const int square = std::max(1, 4 / scale);
+  Usage usage(image.width, image.height, square);
+  for (const SourceCanvas& canvas : canvases)
+    for (int y = shown.y; y < shown.y + shown.height; ++y)
+      for (int x = shown.x; x < shown.x + shown.width; ++x) {
+        const SourceTexel s = canvas.at(x, y);
+        usage.add({s.x - s.x % square, s.y - s.y % square, square, square}, 1.0);
+      }
+  usage.prepare();
+  const double average = usage.mean();
+  constexpr double highest = 4.0; // times the average; more is no worse
+  Prices prices{square, (image.width + square - 1) / square, {}};
+  const int rows = (image.height + square - 1) / square;
+  prices.values.resize(static_cast<std::size_t>(prices.columns) * static_cast<std::size_t>(rows));
+  tbb::parallel_for(0, rows, [&](int j) {
+    for (int i = 0; i < prices.columns; ++i) {
+      const double often = usage.mean({(i - 2) * square, (j - 2) * square, 5 * square, 5 * square}) / average;
+      prices.values[static_cast<std::size_t>(j) * static_cast<std::size_t>(prices.columns) +
+                    static_cast<std::size_t>(i)] =
+          static_cast<std::uint16_t>(Prices::unit * freshness * std::min(often, highest));
+    }
+  });
+  return prices;
+}
+
+SourceCanvas shrunk(const FeatureImage& image, const SourceCanvas& canvas, int scale) {
+  SourceCanvas small(canvas.width / scale, canvas.height / scale);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      const SourceTexel s = canvas.at(scale * x, scale * y);
+      small.at(x, y) = {std::clamp((s.x + scale / 2) / scale, 0, image.width - 1),
+                        std::clamp((s.y + scale / 2) / scale, 0, image.height - 1)};
+    }
+  return small;
+}
+
+// Brings what changed back to a canvas at full size.
+void enlarge_changes(const SourceCanvas& before, const SourceCanvas& after, int scale, SourceCanvas& canvas) {
+  for (int y = 0; y < after.height; ++y)
+    for (int x = 0; x < after.width; ++x) {
+      const SourceTexel s = after.at(x, y);
+      if (s == before.at(x, y)) continue;
+      for (int j = 0; j < scale; ++j)
+        for (int i = 0; i < scale; ++i)
+          canvas.at(scale * x + i, scale * y + j) = {scale * s.x + i, scale * s.y + j};
+    }
+}
+
+std::vector<std::uint8_t> shrunk_mask(const std::vector<std::uint8_t>& fixed, const SourceCanvas& canvas,
+                                      int scale) {
+  std::vector<std::uint8_t> small;
+  for (int y = 0; y + scale <= canvas.height; y += scale)
+    for (int x = 0; x + scale <= canvas.width; x += scale) {
+      std::uint8_t any = 0;
+      for (int j = 0; j < scale; ++j)
+        for (int i = 0; i < scale; ++i) any |= fixed[canvas.index(x + i, y + j)];
+      small.push_back(any);
+    }
+  return small;
+}
 
 } // namespace
 
-void polish(const FeatureImage& image, const std::vector<std::uint8_t>& fixed, const PolishOptions& options,
-            SourceCanvas& canvas) {
-  if (std::min({image.width, image.height, canvas.width, canvas.height}) < side) return;
-  Polish(image, fixed, options, canvas).run();
-}
-
-void polish_at_half_size(const FeatureImage& half_image, const std::vector<std::uint8_t>& fixed,
-                         const PolishOptions& options, SourceCanvas& canvas) {
-  SourceCanvas small(canvas.width / 2, canvas.height / 2);
-  std::vector<std::uint8_t> small_fixed(small.texels.size());
-  for (int y = 0; y < small.height; ++y)
-    for (int x = 0; x < small.width; ++x) {
-      const SourceTexel s = canvas.at(2 * x, 2 * y);
-      small.at(x, y) = {std::clamp((s.x + 1) / 2, 0, half_image.width - 1),
-                        std::clamp((s.y + 1) / 2, 0, half_image.height - 1)};
-      small_fixed[small.index(x, y)] =
-          fixed[canvas.index(2 * x, 2 * y)] | fixed[canvas.index(2 * x + 1, 2 * y)] |
-          fixed[canvas.index(2 * x, 2 * y + 1)] | fixed[canvas.index(2 * x + 1, 2 * y + 1)];
-    }
-  const SourceCanvas before = small;
-  polish(half_image, small_fixed, options, small);
-  for (int y = 0; y < small.height; ++y)
-    for (int x = 0; x < small.width; ++x) {
-      const SourceTexel s = small.at(x, y);
-      if (s == before.at(x, y)) continue;
-      for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 2; ++i) canvas.at(2 * x + i, 2 * y + j) = {2 * s.x + i, 2 * s.y + j};
-    }
+double polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t>& fixed, Rect shown,
+              const PolishOptions& options, std::vector<SourceCanvas>& canvases) {
+  if (canvases.empty() || options.passes == 0) return 0.0;
+  const SourceCanvas& one = canvases.front();
+  if (std::min({image.width, image.height, one.width / scale, one.height / scale}) < side) return 0.0;
+  const auto small_fixed = shrunk_mask(fixed, one, scale);
+  const Rect small_shown{shown.x / scale, shown.y / scale, shown.width / scale, shown.height / scale};
+  const std::size_t count = canvases.size();
+  std::vector<SourceCanvas> before(count);
+  std::vector<SourceCanvas> after(count);
+  std::vector<std::vector<SourceTexel>> matches(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
+    before[n] = after[n] = shrunk(image, canvases[n], scale);
+    matches[n] = first_matches(image, options, after[n]);
+  });
+  std::vector<std::int64_t> unlike(count);
+  for (int pass = 0; pass < options.passes; ++pass) {
+    const Prices prices = prices_of(image, after, small_shown, scale, options.freshness);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
+      PolishPass run(image, prices, small_fixed, options, after[n], matches[n]);
+      run.look_up(random_bits(options.seed, "polish pass", n * 64 + static_cast<std::size_t>(pass)));
+      unlike[n] = run.unlikeness();
+      run.vote();
+    });
+  }
+  std::int64_t sum = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    enlarge_changes(before[n], after[n], scale, canvases[n]);
+    sum += unlike[n];
+  }
+  return static_cast<double>(sum) /
+         (static_cast<double>(count) * static_cast<double>(after.front().texels.size()) * side * side *
+          image.channels);
 }
 
 } // namespace tilepack

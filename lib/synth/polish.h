@@ -8,27 +8,31 @@
 namespace tilepack {
 
 struct PolishOptions {
-  std::uint64_t seed = 0; ///< a different one for each canvas
-  int passes = 2;         ///< look-up and vote this many times
-  int sweeps = 3;         ///< sweeps of the look-up in each pass
-  int reach = 8;          ///< texels this far from a seam may change
-  double doubt = 500; ///< mean squared difference (a channel of a texel) at which a match counts half as much
-                      ///< as an exact one
+  std::uint64_t seed = 0;
+  int passes = 5;          ///< look-up and vote this many times
+  int sweeps = 5;          ///< sweeps of the look-up in each pass
+  int reach = 8;           ///< texels this far from a seam may change
+  double freshness = 0.0;  ///< at f, a match in a part of the sample that is shown as often as the average
+                           ///< counts 1 + f times as unlike
   int seam_threshold = 64; ///< seams that cost no more are left alone
 };
 
 /// Makes the surroundings of seams look like the sample patch by patch: for each square of 7 × 7 texels near
 /// a seam a like one is looked up in the sample (by propagation from neighbours and random trials), and each
-/// texel is replaced by the one, among those its squares propose, that is nearest to their weighted mean.
+/// texel is replaced by the one, among those its squares propose, that is nearest to their mean.
 /// Texels are chosen, never averaged, so they stay verbatim.
 ///
-/// `fixed`: texels that must stay, 1 each.
-void polish(const FeatureImage& image, const std::vector<std::uint8_t>& fixed, const PolishOptions& options,
-            SourceCanvas& canvas);
-
-/// The same at half size, where a square sees twice as far: `half_image` is the sample halved. What changes
-/// there is brought back as squares of 2 × 2 texels, which want polishing at full size next.
-void polish_at_half_size(const FeatureImage& half_image, const std::vector<std::uint8_t>& fixed,
-                         const PolishOptions& options, SourceCanvas& canvas);
+/// All canvases of a set, which are of one size, are polished together, pass by pass: before each pass it is
+/// counted how often they show each part of the sample, so that the next look-up can turn to what they don't
+/// show (see PolishOptions::freshness) without all of them turning to the same.
+///
+/// `image` is the sample at 1 / scale of its size (scale 1 or 2). At half size a square sees twice as far;
+/// what changes there is brought back as squares of 2 × 2 texels, which want polishing at full size next.
+/// `fixed`: texels of a canvas that must stay, 1 each. `shown`: the part of a canvas that is counted.
+///
+/// Returns how unlike the sample the squares near seams were when last looked up: the mean over all texels
+/// (those far from seams count 0) of the squared difference, a channel of a texel.
+double polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t>& fixed, Rect shown,
+              const PolishOptions& options, std::vector<SourceCanvas>& canvases);
 
 } // namespace tilepack

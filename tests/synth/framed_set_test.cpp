@@ -1,5 +1,7 @@
 #include "samples.h"
 
+#include "tilepack/image/image.h"
+#include "tilepack/synth/border_step.h"
 #include "tilepack/synth/framed_set.h"
 #include "tilepack/synth/synthesize.h"
 
@@ -156,6 +158,12 @@ TEST_CASE("maps of a material stay in register to the texel") {
   }
 }
 
+Usage unused(const FeatureImage& image) {
+  Usage usage(image.width, image.height);
+  usage.prepare();
+  return usage;
+}
+
 TEST_CASE("mending never raises the seam energy, and both mending and polishing leave fixed texels alone") {
   const SampleMap map = testing::color_map(blobs(96, 96));
   const std::vector<FeatureImage> pyramid{feature_image(std::span(&map, 1)),
@@ -167,13 +175,46 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
   std::vector<std::uint8_t> fixed(start.texels.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = i % 48 < 22 || i % 7 == 0;
   SourceCanvas mended = start;
-  mend_spots(pyramid, search, fixed, {}, mended);
+  mend_spots(pyramid, search, unused(pyramid.back()), fixed, {}, mended);
   CHECK(seam_energy(pyramid[0], mended) < seam_energy(pyramid[0], start));
-  SourceCanvas polished = start;
-  polish(pyramid[0], fixed, {}, polished);
-  CHECK(polished.texels != start.texels);
+  std::vector<SourceCanvas> polished{start};
+  polish(pyramid[0], 1, fixed, {0, 0, 48, 40}, {}, polished);
+  CHECK(polished[0].texels != start.texels);
   for (std::size_t i = 0; i < fixed.size(); ++i)
-    if (fixed[i]) CHECK((mended.texels[i] == start.texels[i] && polished.texels[i] == start.texels[i]));
+    if (fixed[i]) CHECK((mended.texels[i] == start.texels[i] && polished[0].texels[i] == start.texels[i]));
+}
+
+TEST_CASE("mending takes windows that are not shown yet, where they are as like") {
+  // Four equal quarters: what is missing beside the seam stands at four places.
+  const Image quarter = blobs(64, 64);
+  Image image(128, 128, quarter.channels());
+  for (int y = 0; y < 128; y += 64)
+    for (int x = 0; x < 128; x += 64) paste(image, quarter, x, y);
+  const SampleMap map = testing::color_map(std::move(image));
+  const std::vector<FeatureImage> pyramid{feature_image(std::span(&map, 1))};
+  const PatchSearch search(pyramid.back());
+  Usage usage(128, 128);
+  usage.add({0, 0, 128, 64}, 3.0);
+  usage.add({0, 64, 64, 64}, 3.0);
+  usage.prepare();
+  SourceCanvas canvas(56, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 56; ++x) canvas.at(x, y) = x < 28 ? SourceTexel{x, y} : SourceTexel{x - 28, y + 12};
+  const std::vector<std::uint8_t> fixed(canvas.texels.size(), 0);
+  MendOptions options;
+  options.spots = 2;
+  options.window = 24;
+  mend_spots(pyramid, search, usage, fixed, options, canvas);
+  std::size_t shown_before = 0;
+  std::size_t fresh = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 56; ++x) {
+      const SourceTexel s = canvas.at(x, y);
+      if (s == (x < 28 ? SourceTexel{x, y} : SourceTexel{x - 28, y + 12})) continue;
+      ++(s.x >= 64 && s.y >= 64 ? fresh : shown_before);
+    }
+  CHECK(fresh > 100);
+  CHECK(fresh > 4 * shown_before);
 }
 
 TEST_CASE("polishing at half size changes texels near a seam to others of the sample, fixed ones never") {
@@ -186,14 +227,115 @@ TEST_CASE("polishing at half size changes texels near a seam to others of the sa
       start.at(x, y) = x < 48 ? SourceTexel{x, y} : SourceTexel{x + 91, y + 120};
       fixed[start.index(x, y)] = x < 46;
     }
-  SourceCanvas polished = start;
-  polish_at_half_size(halved(image), fixed, {}, polished);
-  CHECK(polished.texels != start.texels);
+  std::vector<SourceCanvas> polished{start};
+  polish(halved(image), 2, fixed, {0, 0, 96, 80}, {}, polished);
+  CHECK(polished[0].texels != start.texels);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
-    const SourceTexel s = polished.texels[i];
+    const SourceTexel s = polished[0].texels[i];
     CHECK((s.x >= 0 && s.y >= 0 && s.x < image.width && s.y < image.height));
-    if (fixed[i] || i % 96 > 60) CHECK(s == start.texels[i]); // the last are out of reach
+    if (fixed[i] || i % 96 > 64) CHECK(s == start.texels[i]); // the last are out of reach
   }
+}
+
+TEST_CASE(
+    "each pass of polishing leaves squares more like the sample, and nothing is left to do without a seam") {
+  const SampleMap map = testing::color_map(blobs(96, 96));
+  const FeatureImage image = feature_image(std::span(&map, 1));
+  SourceCanvas start(48, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 48; ++x) start.at(x, y) = x < 24 ? SourceTexel{x, y} : SourceTexel{x + 40, y + 50};
+  const std::vector<std::uint8_t> fixed(start.texels.size(), 0);
+  const Rect all{0, 0, 48, 40};
+  const auto unlikeness = [&](int passes) {
+    PolishOptions options;
+    options.passes = passes;
+    std::vector<SourceCanvas> canvases{start};
+    return polish(image, 1, fixed, all, options, canvases);
+  };
+  CHECK(unlikeness(1) > 0.0);
+  CHECK(unlikeness(3) < 0.9 * unlikeness(1));
+
+  std::vector<SourceCanvas> whole{SourceCanvas(48, 40)};
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 48; ++x) whole[0].at(x, y) = {x + 5, y + 7};
+  const auto before = whole[0].texels;
+  CHECK(polish(image, 1, fixed, all, {}, whole) == 0.0);
+  CHECK(whole[0].texels == before);
+}
+
+TEST_CASE("polishing with freshness turns to parts of the sample that no canvas shows") {
+  const Image quarter = blobs(64, 64);
+  Image sample(128, 128, quarter.channels());
+  for (int y = 0; y < 128; y += 64)
+    for (int x = 0; x < 128; x += 64) paste(sample, quarter, x, y);
+  const SampleMap map = testing::color_map(std::move(sample));
+  const FeatureImage image = feature_image(std::span(&map, 1));
+  SourceCanvas start(48, 40); // shows the north-west quarter only
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 48; ++x) start.at(x, y) = x < 24 ? SourceTexel{x, y} : SourceTexel{x + 14, y + 20};
+  const std::vector<std::uint8_t> fixed(start.texels.size(), 0);
+  const auto fresh = [&](double freshness) {
+    PolishOptions options;
+    options.freshness = freshness;
+    std::vector<SourceCanvas> canvases{start, start};
+    polish(image, 1, fixed, {0, 0, 48, 40}, options, canvases);
+    return std::count_if(canvases[0].texels.begin(), canvases[0].texels.end(),
+                         [](SourceTexel s) { return s.x >= 64 || s.y >= 64; });
+  };
+  CHECK(fresh(2.0) > fresh(0.0) + 20);
+}
+
+TEST_CASE("usage is the mean over areas, those partly outside too") {
+  Usage usage(10, 6, 2);
+  usage.prepare();
+  CHECK(usage.mean() == 0.0);
+  usage.add({0, 0, 4, 4}, 3.0);
+  usage.add({2, 2, 2, 2}, -1.0);
+  usage.add({-5, -5, 7, 7}, 1.0);
+  usage.prepare();
+  CHECK(usage.mean({0, 0, 2, 2}) == 4.0);
+  CHECK(usage.mean({2, 2, 2, 2}) == 2.0);
+  CHECK(usage.mean({0, 0, 4, 4}) == Approx((4.0 + 3.0 + 3.0 + 2.0) / 4.0));
+  CHECK(usage.mean({8, 4, 50, 50}) == 0.0);
+  CHECK(usage.mean() == Approx(12.0 / 15.0));
+}
+
+TEST_CASE("the step across a strip is that of the corner patches near its ends and its own between") {
+  // Rows of 0 and 90 in turn in the west, flat in the east.
+  Image image(64, 64, 1);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) image.texel(x, y)[0] = x < 40 && y % 2 == 1 ? 90.0F / 255.0F : 0.0F;
+  const SampleMap map{"height.png", Role::data, Encoding::linear, Depth::u8, std::move(image)};
+  const FeatureImage features = feature_image(std::span(&map, 1));
+  const int high = features.texel(0, 1)[0];
+  CHECK(mean_step(features, Direction::horizontal) == Approx(high * 40.0 / 64.0));
+  CHECK(mean_step(features, Direction::vertical) == Approx(high * 0.5 / 63.0));
+  FrameShape shape;
+  shape.tile = {16, 16};
+  shape.reach = 2;
+  shape.corner_reach = 4;
+  const StripSpace space = space_of(shape, Direction::horizontal);
+  const SourceTexel flat{56, 32};
+  const SourceTexel striped{20, 32};
+  CHECK(step_across(features, shape, space, {0, 30}, striped, striped) == Approx(high));
+  CHECK(step_across(features, shape, space, {0, 30}, flat, striped) == Approx(high * 14.0 / 16.0));
+  CHECK(step_across(features, shape, space, {44, 30}, flat, striped) == Approx(high * 2.0 / 16.0));
+}
+
+TEST_CASE("of several sets the one most like the sample is kept") {
+  const SampleMap map = testing::color_map(blobs(96, 80));
+  const SynthOptions options = framing({32, 32}, Coloring::corner, {0, 0, 2});
+  FramedSetSettings settings = settings_for(3, 5);
+  std::vector<SourceMap> alone;
+  for (int set = 0; set < 3; ++set) {
+    settings.frame.first_start = set * settings.frame.starts;
+    alone.push_back(framed_set(feature_image(std::span(&map, 1)), options, settings));
+  }
+  CHECK(alone[0].texels != alone[1].texels);
+  settings.frame.first_start = 0;
+  settings.sets = 3;
+  const SourceMap kept = framed_set(feature_image(std::span(&map, 1)), options, settings);
+  CHECK(std::any_of(alone.begin(), alone.end(), [&](const SourceMap& m) { return m.texels == kept.texels; }));
 }
 
 TEST_CASE("the sample's own statistics are at distance nought, a part's are not") {

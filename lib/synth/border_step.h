@@ -1,0 +1,18 @@
+#pragma once
+
+#include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/strip_space.h"
+
+namespace tilepack {
+
+/// The mean step (sum over channels of absolute differences) between texels that are neighbours across an
+/// edge of `direction`, over the whole image.
+double mean_step(const FeatureImage& image, Direction direction);
+
+/// The same across the edge in the middle of a strip that lies at `place`, with the corner patches `first`
+/// and `second` (see FramePlan) shown as far as their cuts run on average: what tiles will show at their
+/// borders. A border busier or calmer than the sample shows as a line.
+double step_across(const FeatureImage& image, const FrameShape& shape, const StripSpace& space,
+                   SourceTexel place, SourceTexel first, SourceTexel second);
+
+} // namespace tilepack

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "tilepack/image/image.h"
+
+#include <vector>
+
+namespace tilepack {
+
+/// How often each part of the sample is shown, so that a choice can favour parts not seen yet. Counted in
+/// squares of a few texels.
+class Usage {
+public:
+  Usage(int image_width, int image_height, int square_side = 1);
+
+  /// Counts `area` `weight` times more, which may be negative; what lies outside of the image is left out.
+  void add(Rect area, double weight);
+
+  /// To be called between add() and the functions below, which tell the state of then.
+  void prepare();
+
+  /// The mean count over `area`, of which what lies outside of the image is left out.
+  double mean(Rect area) const;
+  double mean() const;
+
+private:
+  struct Bounds {
+    std::size_t first_x, first_y, last_x, last_y; // last: one past
+  };
+  Bounds bounds(Rect area) const;
+
+  int square;
+  int columns;
+  int rows;
+  std::vector<double> count; // sums of small integers and halves, so exact in any order
+  std::vector<double> sums;  // summed areas
+};
+
+} // namespace tilepack
