@@ -12,6 +12,12 @@ int step(const std::uint8_t* a, const std::uint8_t* b, int channels) {
   return sum;
 }
 
+int step_at(const FeatureImage& image, const StripSpace& space, SourceTexel place, int along) {
+  const SourceTexel before = sum(place, space.at(along, space.reach - 1));
+  const SourceTexel after = sum(place, space.at(along, space.reach));
+  return step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y), image.channels);
+}
+
 } // namespace
 
 double mean_step(const FeatureImage& image, Direction direction) {
@@ -24,6 +30,12 @@ double mean_step(const FeatureImage& image, Direction direction) {
   return static_cast<double>(total) / (static_cast<double>(image.width - dx) * (image.height - dy));
 }
 
+double step_across(const FeatureImage& image, const StripSpace& space, SourceTexel place) {
+  std::int64_t total = 0;
+  for (int along = 0; along < space.length; ++along) total += step_at(image, space, place, along);
+  return static_cast<double>(total) / space.length;
+}
+
 double step_across(const FeatureImage& image, const FrameShape& shape, const StripSpace& space,
                    SourceTexel place, SourceTexel first, SourceTexel second) {
   const int half = shape.corner_reach / 2;
@@ -32,10 +44,7 @@ double step_across(const FeatureImage& image, const FrameShape& shape, const Str
     SourceTexel origin = place;
     if (along < half) origin = corner_origin(space, first, false);
     if (along >= space.length - half) origin = corner_origin(space, second, true);
-    const SourceTexel before = sum(origin, space.at(along, space.reach - 1));
-    const SourceTexel after = sum(origin, space.at(along, space.reach));
-    total +=
-        step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y), image.channels);
+    total += step_at(image, space, origin, along);
   }
   return static_cast<double>(total) / space.length;
 }

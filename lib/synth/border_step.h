@@ -9,9 +9,12 @@ namespace tilepack {
 /// edge of `direction`, over the whole image.
 double mean_step(const FeatureImage& image, Direction direction);
 
-/// The same across the edge in the middle of a strip that lies at `place`, with the corner patches `first`
-/// and `second` (see FramePlan) shown as far as their cuts run on average: what tiles will show at their
-/// borders. A border busier or calmer than the sample shows as a line.
+/// The same across the edge in the middle of a strip that lies at `place`. A border busier or calmer than the
+/// sample shows as a line.
+double step_across(const FeatureImage& image, const StripSpace& space, SourceTexel place);
+
+/// With the corner patches `first` and `second` (see FramePlan) shown as far as their cuts run on average:
+/// what tiles will show at their borders.
 double step_across(const FeatureImage& image, const FrameShape& shape, const StripSpace& space,
                    SourceTexel place, SourceTexel first, SourceTexel second);
 

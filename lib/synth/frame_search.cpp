@@ -30,8 +30,7 @@ public:
       : image(feature_image), options(search_options),
         mean(channel_means({0, 0}, image.width, image.height)) {}
 
-  std::vector<Candidate> best(const PositionMap& map, const FrameShape& shape, const StripSpace& space,
-                              SourceTexel first, SourceTexel second) const {
+  std::vector<Candidate> best(const PositionMap& map, const StripSpace& space, int depth) const {
     std::vector<std::size_t> order(map.values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const std::size_t looked_at = std::min(order.size(), static_cast<std::size_t>(60 * options.candidates));
@@ -48,12 +47,12 @@ public:
             return std::abs(c.place.x - at.x) < 3 && std::abs(c.place.y - at.y) < 3;
           }))
         continue;
-      apart.push_back(
-          {at, static_cast<double>(map.values[order[i]]) / shape.corner_reach + unevenness(at, space)});
+      apart.push_back({at, static_cast<double>(map.values[order[i]]) / depth + unevenness(at, space)});
     }
+    // Corner patches, the same for all candidates, are left out of it.
     const double usual = std::max(mean_step(image, space.direction), 1e-3);
     for (Candidate& c : apart) {
-      const double excess = step_across(image, shape, space, c.place, first, second) / usual - 1.0;
+      const double excess = step_across(image, space, c.place) / usual - 1.0;
       c.misfit *= 1.0 + options.calmness * excess * excess;
     }
     std::stable_sort(apart.begin(), apart.end(),
@@ -222,7 +221,7 @@ public:
       const SourceTexel second = corners[static_cast<std::size_t>(ends(i).second)];
       const PositionMap map = search.mismatches(end_overlap(image, shape, space, first, second));
       StripChoices& strip = strips[i];
-      strip.candidates = list.best(map, shape, space, first, second);
+      strip.candidates = list.best(map, space, shape.corner_reach);
       strip.maps.resize(strip.candidates.size());
       const bool swapped = space.direction == Direction::vertical;
       tbb::parallel_for(std::size_t{0}, strip.maps.size(), [&](std::size_t c) {
@@ -424,8 +423,7 @@ FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleS
   std::vector<FramePlan> plans(static_cast<std::size_t>(options.starts));
   std::vector<double> costs(plans.size());
   tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t start) {
-    FrameChoice choice(plain, turned, statistics, 1 << (levels - 1), small, search, options,
-                       static_cast<std::uint64_t>(options.first_start) + start);
+    FrameChoice choice(plain, turned, statistics, 1 << (levels - 1), small, search, options, start);
     costs[start] = choice.improve();
     plans[start] = choice.plan();
   });

@@ -12,7 +12,6 @@ namespace tilepack {
 struct FrameSearchOptions {
   std::uint64_t seed = 0;
   int starts = 8;         ///< random choices of corner patches
-  int first_start = 0;    ///< which of all thinkable ones is the first
   int candidates = 12;    ///< places considered for each strip
   int rounds = 3;         ///< passes over all strips
   double evenness = 2;    ///< weight of a strip's deviation from the sample's mean color

@@ -92,12 +92,11 @@ std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
   return fixed;
 }
 
-// At half size and then at full size. Returns how unlike the sample the result is.
-double polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std::uint8_t>& fixed,
-                   Rect shown, PolishOptions coarse, PolishOptions fine,
-                   std::vector<SourceCanvas>& canvases) {
+// At half size and then at full size.
+void polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std::uint8_t>& fixed, Rect shown,
+                 PolishOptions coarse, PolishOptions fine, std::vector<SourceCanvas>& canvases) {
   if (pyramid.size() > 1) polish(pyramid[1], 2, fixed, shown, coarse, canvases);
-  return polish(pyramid.front(), 1, fixed, shown, fine, canvases);
+  polish(pyramid.front(), 1, fixed, shown, fine, canvases);
 }
 
 // Strips are mended before tiles are made of them, so that what crosses an edge is mended on both its sides.
@@ -135,58 +134,22 @@ Usage shown_at(const FeatureImage& small, int scale, const std::vector<SourceCan
   return usage;
 }
 
-struct FramedTiles {
-  std::vector<SourceCanvas> tiles;
-  double unlikeness = 0.0; // to the sample, see polish()
-};
-
-FramedTiles tiles_in_frame(const std::vector<FeatureImage>& pyramid, const SampleStatistics& statistics,
-                           const PatchSearch& search, const FrameShape& shape,
-                           const FramedSetSettings& settings, const Progress& progress) {
-  const FeatureImage& image = pyramid.front();
-  const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
-  Frame frame = joined_frame(image, shape, plan);
-  tbb::parallel_invoke(
-      [&] { mend_strips(pyramid, search, shape, settings, Direction::horizontal, frame.horizontal); },
-      [&] { mend_strips(pyramid, search, shape, settings, Direction::vertical, frame.vertical); });
-  auto tiles = framed_tiles(shape, frame);
-  const auto interiors =
-      chosen_interiors(pyramid, search, statistics, shape, plan, tiles, settings.interiors, progress);
-  join_interiors(image, shape, interiors, settings.interiors.bias, tiles);
-
-  report(progress, "mending", 0.0);
-  const auto fixed = fixed_texels(shape);
-  const Usage usage = shown_at(pyramid.back(), 1 << (pyramid.size() - 1), tiles);
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
-    tiles[id] = with_margin(shape, plan, frame, id, tiles[id]);
-    mend_spots(pyramid, search, usage, fixed, settings.mend, tiles[id]);
-  });
-  report(progress, "mending", 0.3);
-  const int margin = margin_of(shape);
-  FramedTiles result;
-  result.unlikeness = polish_both(pyramid, fixed, {margin, margin, shape.tile.width, shape.tile.height},
-                                  settings.coarse_polish, settings.polish, tiles);
-  for (const SourceCanvas& canvas : tiles) result.tiles.push_back(without_margin(shape, canvas));
-  report(progress, "mending", 1.0);
-  return result;
-}
-
 } // namespace
 
 FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   struct Row {
-    int starts, candidates, spots, tries, passes, sweeps, sets;
+    int starts, candidates, spots, tries, passes, sweeps;
   };
-  static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0, 1},
-                                             {1, 8, 0, 0, 1, 2, 1},
-                                             {1, 8, 2, 1, 2, 2, 1},
-                                             {2, 12, 3, 1, 3, 3, 1},
-                                             {2, 12, 4, 2, 3, 4, 1},
-                                             {3, 12, 4, 2, 4, 4, 1},
-                                             {3, 12, 6, 2, 6, 6, 1},
-                                             {3, 12, 8, 2, 8, 8, 1},
-                                             {3, 12, 8, 2, 10, 10, 2},
-                                             {3, 12, 8, 2, 12, 12, 3}}};
+  static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0},
+                                             {1, 8, 0, 0, 1, 2},
+                                             {1, 8, 2, 1, 2, 2},
+                                             {2, 12, 3, 1, 3, 3},
+                                             {2, 12, 4, 2, 3, 4},
+                                             {3, 12, 4, 2, 4, 4},
+                                             {3, 12, 6, 2, 5, 6},
+                                             {3, 12, 8, 2, 7, 8},
+                                             {3, 12, 8, 2, 10, 10},
+                                             {3, 12, 8, 2, 16, 16}}};
   const Row& row = rows[static_cast<std::size_t>(effort)];
   FramedSetSettings settings;
   settings.frame.seed = seed;
@@ -207,7 +170,6 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   }
   settings.coarse_polish.reach = 6;
   settings.coarse_polish.seam_threshold = 500;
-  settings.sets = row.sets;
   return settings;
 }
 
@@ -216,22 +178,39 @@ SourceMap framed_set(FeatureImage sample, const SynthOptions& options, const Fra
   FrameShape shape = frame_shape(options, settings.reach, settings.corner_reach);
   const std::vector<FeatureImage> pyramid =
       pyramid_down_to(std::move(sample), shape.tile, settings.smallest_search_tile);
-  const SampleStatistics statistics(pyramid.front());
+  const FeatureImage& image = pyramid.front();
+  const SampleStatistics statistics(image);
   const PatchSearch search(pyramid.back());
-  FramedTiles best;
-  for (int set = 0; set < settings.sets; ++set) {
-    FramedSetSettings own = settings;
-    own.frame.first_start += set * settings.frame.starts;
-    FramedTiles made = tiles_in_frame(pyramid, statistics, search, shape, own, progress);
-    if (set == 0 || made.unlikeness < best.unlikeness) best = std::move(made);
-  }
+  const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
+  Frame frame = joined_frame(image, shape, plan);
+  tbb::parallel_invoke(
+      [&] { mend_strips(pyramid, search, shape, settings, Direction::horizontal, frame.horizontal); },
+      [&] { mend_strips(pyramid, search, shape, settings, Direction::vertical, frame.vertical); });
+  auto tiles = framed_tiles(shape, frame);
+  const auto interiors =
+      chosen_interiors(pyramid, search, statistics, shape, plan, tiles, settings.interiors, progress);
+  join_interiors(image, shape, interiors, settings.interiors.bias, tiles);
+
+  report(progress, "mending", 0.0);
+  const auto fixed = fixed_texels(shape);
+  const Usage usage = shown_at(pyramid.back(), 1 << (pyramid.size() - 1), tiles);
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+    tiles[id] = with_margin(shape, plan, frame, id, tiles[id]);
+    mend_spots(pyramid, search, usage, fixed, settings.mend, tiles[id]);
+  });
+  report(progress, "mending", 0.3);
+  const int margin = margin_of(shape);
+  polish_both(pyramid, fixed, {margin, margin, shape.tile.width, shape.tile.height}, settings.coarse_polish,
+              settings.polish, tiles);
+  for (SourceCanvas& tile : tiles) tile = without_margin(shape, tile);
+  report(progress, "mending", 1.0);
 
   SourceMap result{options.tile_size, options.colors, {}, {}, options.guard};
   if (options.coloring == Coloring::corner)
     result.tiles = complete_corner_set(options.colors.corner);
   else
     result.tiles = complete_edge_set(options.colors.horizontal, options.colors.vertical);
-  for (auto& tile : best.tiles) result.texels.push_back(std::move(tile.texels));
+  for (auto& tile : tiles) result.texels.push_back(std::move(tile.texels));
   return result;
 }
 

@@ -22,10 +22,9 @@ struct FramedSetSettings {
   int strip_spots = 4;         ///< as mend.spots, for each strip
   PolishOptions coarse_polish; ///< at half size, before
   PolishOptions polish;
-  int sets = 1; ///< so many sets are made from different frames, and the one most like the sample is kept
 };
 
-/// More effort: more starts, more places tried, more mended, longer polishing, more sets to choose from.
+/// More effort: more starts, more places tried, more mended, longer polishing.
 FramedSetSettings settings_for(int effort, std::uint64_t seed);
 
 /// Interior::patch: chooses a frame, gives every tile its own inside, joins them by cuts, and mends what is

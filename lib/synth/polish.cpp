@@ -101,12 +101,6 @@ public:
     }
   }
 
-  std::int64_t unlikeness() const {
-    std::int64_t sum = 0;
-    for (const std::size_t i : active) sum += distance[i];
-    return sum;
-  }
-
   // Replaces each texel by what is nearest to the mean of what the matches of its squares show in its place.
   void vote() {
     switch (channels) {
@@ -279,11 +273,11 @@ std::vector<std::uint8_t> shrunk_mask(const std::vector<std::uint8_t>& fixed, co
 
 } // namespace
 
-double polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t>& fixed, Rect shown,
-              const PolishOptions& options, std::vector<SourceCanvas>& canvases) {
-  if (canvases.empty() || options.passes == 0) return 0.0;
+void polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t>& fixed, Rect shown,
+            const PolishOptions& options, std::vector<SourceCanvas>& canvases) {
+  if (canvases.empty() || options.passes == 0) return;
   const SourceCanvas& one = canvases.front();
-  if (std::min({image.width, image.height, one.width / scale, one.height / scale}) < side) return 0.0;
+  if (std::min({image.width, image.height, one.width / scale, one.height / scale}) < side) return;
   const auto small_fixed = shrunk_mask(fixed, one, scale);
   const Rect small_shown{shown.x / scale, shown.y / scale, shown.width / scale, shown.height / scale};
   const std::size_t count = canvases.size();
@@ -294,24 +288,15 @@ double polish(const FeatureImage& image, int scale, const std::vector<std::uint8
     before[n] = after[n] = shrunk(image, canvases[n], scale);
     matches[n] = first_matches(image, options, after[n]);
   });
-  std::vector<std::int64_t> unlike(count);
   for (int pass = 0; pass < options.passes; ++pass) {
     const Prices prices = prices_of(image, after, small_shown, scale, options.freshness);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
       PolishPass run(image, prices, small_fixed, options, after[n], matches[n]);
       run.look_up(random_bits(options.seed, "polish pass", n * 64 + static_cast<std::size_t>(pass)));
-      unlike[n] = run.unlikeness();
       run.vote();
     });
   }
-  std::int64_t sum = 0;
-  for (std::size_t n = 0; n < count; ++n) {
-    enlarge_changes(before[n], after[n], scale, canvases[n]);
-    sum += unlike[n];
-  }
-  return static_cast<double>(sum) /
-         (static_cast<double>(count) * static_cast<double>(after.front().texels.size()) * side * side *
-          image.channels);
+  for (std::size_t n = 0; n < count; ++n) enlarge_changes(before[n], after[n], scale, canvases[n]);
 }
 
 } // namespace tilepack

@@ -29,10 +29,7 @@ struct PolishOptions {
 /// `image` is the sample at 1 / scale of its size (scale 1 or 2). At half size a square sees twice as far;
 /// what changes there is brought back as squares of 2 × 2 texels, which want polishing at full size next.
 /// `fixed`: texels of a canvas that must stay, 1 each. `shown`: the part of a canvas that is counted.
-///
-/// Returns how unlike the sample the squares near seams were when last looked up: the mean over all texels
-/// (those far from seams count 0) of the squared difference, a channel of a texel.
-double polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t>& fixed, Rect shown,
-              const PolishOptions& options, std::vector<SourceCanvas>& canvases);
+void polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t>& fixed, Rect shown,
+            const PolishOptions& options, std::vector<SourceCanvas>& canvases);
 
 } // namespace tilepack
