@@ -21,7 +21,7 @@ bool in_guard(const FrameShape& shape, int x, int y);
 
 struct InteriorOptions {
   std::uint64_t seed = 0;
-  double freshness = 4.0; ///< at f, a part shown as often as the average makes a fit count 1 + f times as bad
+  double freshness = 8.0; ///< at f, a part shown as often as the average makes a fit count 1 + f times as bad
   double likeness = 1500.0; ///< weight of the distance between what the set shows and the sample's statistics
   int rounds = 6;           ///< passes over all tiles
   std::int64_t bias = 10;   ///< see apply_move
