@@ -94,7 +94,8 @@ std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
 
 // At half size and then at full size.
 void polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std::uint8_t>& fixed, Rect shown,
-                 PolishOptions coarse, PolishOptions fine, std::vector<SourceCanvas>& canvases) {
+                 const PolishOptions& coarse, const PolishOptions& fine,
+                 std::vector<SourceCanvas>& canvases) {
   if (pyramid.size() > 1) polish(pyramid[1], 2, fixed, shown, coarse, canvases);
   polish(pyramid.front(), 1, fixed, shown, fine, canvases);
 }
@@ -113,10 +114,8 @@ void mend_strips(const std::vector<FeatureImage>& pyramid, const PatchSearch& se
     }
   Usage nothing_shown(pyramid.back().width, pyramid.back().height);
   nothing_shown.prepare();
-  MendOptions mend = settings.mend;
-  mend.spots = settings.strip_spots;
   tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
-    mend_spots(pyramid, search, nothing_shown, fixed, mend, strips[i]);
+    mend_spots(pyramid, search, nothing_shown, fixed, settings.mend, strips[i]);
   });
   PolishOptions coarse = settings.coarse_polish;
   PolishOptions fine = settings.polish;
@@ -143,7 +142,7 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0},
                                              {1, 8, 0, 0, 1, 2},
                                              {1, 8, 2, 1, 2, 2},
-                                             {2, 12, 3, 1, 3, 3},
+                                             {2, 12, 3, 1, 2, 3},
                                              {2, 12, 4, 2, 2, 4},
                                              {3, 12, 4, 2, 3, 4},
                                              {3, 12, 6, 2, 5, 6},
@@ -157,7 +156,6 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   settings.frame.candidates = row.candidates;
   settings.interiors.seed = seed;
   settings.mend.spots = row.spots;
-  settings.strip_spots = row.spots;
   settings.mend.tries = row.tries;
   settings.polish.seed = seed;
   settings.polish.passes = row.passes;

@@ -18,8 +18,7 @@ struct FramedSetSettings {
                                  ///< side is at least this
   FrameSearchOptions frame;
   InteriorOptions interiors;
-  MendOptions mend;
-  int strip_spots = 4;         ///< as mend.spots, for each strip
+  MendOptions mend;            ///< of each strip, and then of each tile
   PolishOptions coarse_polish; ///< at half size, before
   PolishOptions polish;
 };

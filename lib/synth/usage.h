@@ -12,13 +12,14 @@ class Usage {
 public:
   Usage(int image_width, int image_height, int square_side = 1);
 
-  /// Counts `area` `weight` times more, which may be negative; what lies outside of the image is left out.
+  /// Counts `area` `weight` times more, which may be negative. Areas are rounded to whole squares of the
+  /// image, the nearest one at least; the rest of what lies outside of it is left out, here and in mean().
   void add(Rect area, double weight);
 
   /// To be called between add() and the functions below, which tell the state of then.
   void prepare();
 
-  /// The mean count over `area`, of which what lies outside of the image is left out.
+  /// The mean count over `area`, and over the whole image.
   double mean(Rect area) const;
   double mean() const;
 
@@ -31,7 +32,7 @@ private:
   int square;
   int columns;
   int rows;
-  std::vector<double> count; // sums of small integers and halves, so exact in any order
+  std::vector<double> count; // with whole weights exact in any order
   std::vector<double> sums;  // summed areas
 };
 

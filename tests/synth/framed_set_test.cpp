@@ -158,6 +158,24 @@ TEST_CASE("maps of a material stay in register to the texel") {
   }
 }
 
+// 128 × 128 texels of four equal quarters: what is missing in one place stands in three more.
+Image four_quarters() {
+  const Image quarter = blobs(64, 64);
+  Image image(128, 128, quarter.channels());
+  for (int y = 0; y < 128; y += 64)
+    for (int x = 0; x < 128; x += 64) paste(image, quarter, x, y);
+  return image;
+}
+
+// 48 × 40 texels of the sample's north-west, the eastern half from `shift` further on.
+SourceCanvas with_seam(SourceTexel shift) {
+  SourceCanvas canvas(48, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 48; ++x)
+      canvas.at(x, y) = x < 24 ? SourceTexel{x, y} : SourceTexel{x + shift.x, y + shift.y};
+  return canvas;
+}
+
 Usage unused(const FeatureImage& image) {
   Usage usage(image.width, image.height);
   usage.prepare();
@@ -169,9 +187,7 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
   const std::vector<FeatureImage> pyramid{feature_image(std::span(&map, 1)),
                                           halved(feature_image(std::span(&map, 1)))};
   const PatchSearch search(pyramid.back());
-  SourceCanvas start(48, 40);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 48; ++x) start.at(x, y) = x < 24 ? SourceTexel{x, y} : SourceTexel{x + 40, y + 50};
+  const SourceCanvas start = with_seam({40, 50});
   std::vector<std::uint8_t> fixed(start.texels.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = i % 48 < 22 || i % 7 == 0;
   SourceCanvas mended = start;
@@ -185,12 +201,7 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
 }
 
 TEST_CASE("mending takes windows that are not shown yet, where they are as like") {
-  // Four equal quarters: what is missing beside the seam stands at four places.
-  const Image quarter = blobs(64, 64);
-  Image image(128, 128, quarter.channels());
-  for (int y = 0; y < 128; y += 64)
-    for (int x = 0; x < 128; x += 64) paste(image, quarter, x, y);
-  const SampleMap map = testing::color_map(std::move(image));
+  const SampleMap map = testing::color_map(four_quarters());
   const std::vector<FeatureImage> pyramid{feature_image(std::span(&map, 1))};
   const PatchSearch search(pyramid.back());
   Usage usage(128, 128);
@@ -233,7 +244,7 @@ TEST_CASE("polishing at half size changes texels near a seam to others of the sa
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const SourceTexel s = polished[0].texels[i];
     CHECK((s.x >= 0 && s.y >= 0 && s.x < image.width && s.y < image.height));
-    if (fixed[i] || i % 96 > 64) CHECK(s == start.texels[i]); // the last are out of reach
+    if (fixed[i] || i % 96 > 60) CHECK(s == start.texels[i]); // the last are out of reach
   }
 }
 
@@ -263,9 +274,7 @@ double unlikeness(const FeatureImage& image, const SourceCanvas& canvas) {
 TEST_CASE("passes of polishing make squares more like the sample's, and leave alone what has no seam") {
   const SampleMap map = testing::color_map(blobs(96, 96));
   const FeatureImage image = feature_image(std::span(&map, 1));
-  SourceCanvas start(48, 40);
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 48; ++x) start.at(x, y) = x < 24 ? SourceTexel{x, y} : SourceTexel{x + 40, y + 50};
+  const SourceCanvas start = with_seam({40, 50});
   const std::vector<std::uint8_t> fixed(start.texels.size(), 0);
   const Rect all{0, 0, 48, 40};
   const auto polished = [&](int passes) {
@@ -288,15 +297,9 @@ TEST_CASE("passes of polishing make squares more like the sample's, and leave al
 }
 
 TEST_CASE("polishing with freshness turns to parts of the sample that no canvas shows") {
-  const Image quarter = blobs(64, 64);
-  Image sample(128, 128, quarter.channels());
-  for (int y = 0; y < 128; y += 64)
-    for (int x = 0; x < 128; x += 64) paste(sample, quarter, x, y);
-  const SampleMap map = testing::color_map(std::move(sample));
+  const SampleMap map = testing::color_map(four_quarters());
   const FeatureImage image = feature_image(std::span(&map, 1));
-  SourceCanvas start(48, 40); // shows the north-west quarter only
-  for (int y = 0; y < 40; ++y)
-    for (int x = 0; x < 48; ++x) start.at(x, y) = x < 24 ? SourceTexel{x, y} : SourceTexel{x + 14, y + 20};
+  const SourceCanvas start = with_seam({14, 20}); // shows the north-west quarter only
   const std::vector<std::uint8_t> fixed(start.texels.size(), 0);
   const auto fresh = [&](double freshness) {
     PolishOptions options;
