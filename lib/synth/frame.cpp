@@ -4,9 +4,11 @@
 
 namespace tilepack {
 
-FrameShape frame_shape(const SynthOptions& options, double reach, double corner_reach) {
+FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, double reach,
+                       double corner_reach) {
   FrameShape shape;
   shape.tile = options.tile_size;
+  shape.phase = Phase(periods, shape.tile);
   const int side = std::min(options.tile_size.width, options.tile_size.height);
   shape.guard = std::max(1, options.guard);
   shape.reach =

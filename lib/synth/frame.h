@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/phase.h"
 #include "tilepack/synth/source_canvas.h"
 #include "tilepack/synth/synthesize.h"
 
@@ -34,19 +35,22 @@ struct FrameShape {
   int reach = 2;        ///< guard < reach <= half the tile
   int corner_reach = 2; ///< reach <= corner_reach <= half the tile
   int corners = 1;
+  Phase phase; ///< of the whole periods that a tile holds
   std::vector<Strip> horizontal;
   std::vector<Strip> vertical;
   std::vector<Tile> tiles; ///< by tile id
 };
 
 /// The shape for a complete set; `reach` and `corner_reach` as shares of the tile's smaller side.
-FrameShape frame_shape(const SynthOptions& options, double reach, double corner_reach);
+FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, double reach,
+                       double corner_reach);
 
 /// The same frame for an image `times` halved.
 FrameShape halved(const FrameShape& shape, int times);
 
 /// Where the frame's parts are taken from.
 struct FramePlan {
+  Phase phase; ///< all parts are in step with the first corner patch
   std::vector<SourceTexel> corners; ///< the texel south-east of the lattice point
   std::vector<SourceTexel>
       horizontal; ///< north-west texel of a window of tile.width × 2 reach, edge in the middle

@@ -24,14 +24,25 @@ struct Place {
   double step; // across the edge, of the usual
 };
 
-std::vector<Place> places_near(const FeatureImage& image, const Overlap& overlap, SourceTexel start,
-                               int distance) {
+bool fits_better(const Place& a, const Place& b) {
+  return a.misfit < b.misfit;
+}
+
+// All places in step within `distance` texels of `start`, or that one.
+std::vector<Place> places_near(const FeatureImage& image, const Overlap& overlap, const Phase& phase,
+                               int scale, SourceTexel start, int distance) {
   std::vector<Place> places;
+  const auto add = [&](SourceTexel at) {
+    places.push_back({at, static_cast<double>(mismatch_at(image, overlap, at)), 0.0});
+  };
   for (int y = start.y - distance; y <= start.y + distance; ++y)
     for (int x = start.x - distance; x <= start.x + distance; ++x) {
       if (x < 0 || y < 0 || x + overlap.width > image.width || y + overlap.height > image.height) continue;
-      places.push_back({{x, y}, static_cast<double>(mismatch_at(image, overlap, {x, y})), 0.0});
+      if (phase.allows({x * scale, y * scale}, scale)) add({x, y});
     }
+  if (places.empty())
+    add({std::clamp(start.x, 0, image.width - overlap.width),
+         std::clamp(start.y, 0, image.height - overlap.height)});
   return places;
 }
 
@@ -40,9 +51,8 @@ std::vector<std::size_t> chosen_together(const std::vector<std::vector<Place>>& 
   std::vector<std::size_t> chosen(strips.size());
   std::vector<double> least(strips.size());
   double steps = 0.0;
-  const auto by_misfit = [](const Place& a, const Place& b) { return a.misfit < b.misfit; };
   for (std::size_t i = 0; i < strips.size(); ++i) {
-    const auto best = std::min_element(strips[i].begin(), strips[i].end(), by_misfit);
+    const auto best = std::min_element(strips[i].begin(), strips[i].end(), fits_better);
     chosen[i] = static_cast<std::size_t>(best - strips[i].begin());
     least[i] = std::max(best->misfit, 1.0);
     steps += best->step;
@@ -69,11 +79,16 @@ std::vector<std::size_t> chosen_together(const std::vector<std::vector<Place>>& 
 
 } // namespace
 
-void refine_frame(const FeatureImage& image, const FrameShape& shape, bool even_steps, FramePlan& plan) {
+void refine_frame(const FeatureImage& image, const FrameShape& shape, int scale, FramePlan& plan) {
+  const bool even_steps = scale == 1;
   const int margin = std::max(shape.reach, shape.corner_reach);
-  for (SourceTexel& c : plan.corners)
-    c = {std::clamp(2 * c.x, margin, std::max(margin, image.width - margin)),
-         std::clamp(2 * c.y, margin, std::max(margin, image.height - margin))};
+  const SourceTexel low{margin, margin};
+  const SourceTexel high{std::max(margin, image.width - margin), std::max(margin, image.height - margin)};
+  for (SourceTexel& c : plan.corners) {
+    c = {2 * c.x, 2 * c.y};
+    if (even_steps) c = plan.phase.nearest(c, low, high);
+    c = {std::clamp(c.x, low.x, high.x), std::clamp(c.y, low.y, high.y)};
+  }
   const int distance = even_steps ? 3 : 2;
   for (const Direction direction : {Direction::horizontal, Direction::vertical}) {
     const StripSpace space = space_of(shape, direction);
@@ -81,17 +96,17 @@ void refine_frame(const FeatureImage& image, const FrameShape& shape, bool even_
     auto& places = horizontal ? plan.horizontal : plan.vertical;
     const auto& ends = horizontal ? shape.horizontal : shape.vertical;
     const double usual = even_steps ? mean_step(image, direction) : 0.0;
+    const Phase phase = plan.phase.seen_from(strip_place(space, scale));
     std::vector<std::vector<Place>> near(places.size());
     tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
       const SourceTexel first = plan.corners[static_cast<std::size_t>(ends[i].first)];
       const SourceTexel second = plan.corners[static_cast<std::size_t>(ends[i].second)];
       const Overlap overlap = end_overlap(image, shape, space, first, second);
-      const SourceTexel start{2 * places[i].x, 2 * places[i].y};
+      near[i] = places_near(image, overlap, phase, scale, {2 * places[i].x, 2 * places[i].y}, distance);
       if (usual <= 0.0) {
-        places[i] = best_near(image, overlap, start, 2);
+        places[i] = std::min_element(near[i].begin(), near[i].end(), fits_better)->at;
         return;
       }
-      near[i] = places_near(image, overlap, start, distance);
       for (Place& place : near[i])
         place.step = step_across(image, shape, space, place.at, first, second) / usual;
     });

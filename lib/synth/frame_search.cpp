@@ -43,6 +43,7 @@ public:
          ++i) {
       const SourceTexel at{static_cast<int>(order[i] % static_cast<std::size_t>(map.width)),
                            static_cast<int>(order[i] / static_cast<std::size_t>(map.width))};
+      if (map.values[order[i]] == ruled_out) break;
       if (std::any_of(apart.begin(), apart.end(), [&](const Candidate& c) {
             return std::abs(c.place.x - at.x) < 3 && std::abs(c.place.y - at.y) < 3;
           }))
@@ -219,7 +220,8 @@ public:
       const StripSpace space = space_of(shape, direction(i));
       const SourceTexel first = corners[static_cast<std::size_t>(ends(i).first)];
       const SourceTexel second = corners[static_cast<std::size_t>(ends(i).second)];
-      const PositionMap map = search.mismatches(end_overlap(image, shape, space, first, second));
+      PositionMap map = search.mismatches(end_overlap(image, shape, space, first, second));
+      rule_out_of_step(map, phase.seen_from(strip_place(space, scale)), scale);
       StripChoices& strip = strips[i];
       strip.candidates = list.best(map, space, shape.corner_reach);
       strip.maps.resize(strip.candidates.size());
@@ -232,6 +234,13 @@ public:
       });
     });
     list_tiles();
+    fits.resize(positions.count());
+    for (std::size_t p = 0; p < fits.size(); ++p) {
+      const int step = scale * positions.stride;
+      const SourceTexel at{static_cast<int>(p % static_cast<std::size_t>(positions.columns)) * step,
+                           static_cast<int>(p / static_cast<std::size_t>(positions.columns)) * step};
+      fits[p] = phase.allows(at, step) ? 0.0f : std::numeric_limits<float>::infinity();
+    }
   }
 
   double improve() {
@@ -251,6 +260,7 @@ public:
 
   FramePlan plan() const {
     FramePlan result;
+    result.phase = phase;
     result.corners = corners;
     for (std::size_t i = 0; i < strips.size(); ++i)
       (direction(i) == Direction::horizontal ? result.horizontal : result.vertical)
@@ -283,9 +293,9 @@ private:
       int best_distance = -1;
       for (std::uint64_t attempt = 0; attempt < 4; ++attempt) {
         const std::uint64_t index = (start * 16 + static_cast<std::uint64_t>(corner)) * 16 + attempt;
-        const SourceTexel at{
-            margin + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
-            margin + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
+        SourceTexel at{margin + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
+                       margin + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
+        if (!corners.empty()) at = in_step(at, margin);
         int distance = std::numeric_limits<int>::max();
         for (const SourceTexel& other : corners)
           distance = std::min(distance, std::abs(at.x - other.x) + std::abs(at.y - other.y));
@@ -295,7 +305,16 @@ private:
         }
       }
       corners.push_back(best);
+      if (corner == 0) phase = shape.phase.through({best.x * scale, best.y * scale});
     }
+  }
+
+  // The place of a corner patch nearest to this one that is in step with the first.
+  SourceTexel in_step(SourceTexel at, int margin) const {
+    const SourceTexel texel = phase.nearest({at.x * scale, at.y * scale}, {margin * scale, margin * scale},
+                                            {(image.width - margin) * scale, (image.height - margin) * scale});
+    return {std::clamp((texel.x + scale / 2) / scale, margin, std::max(margin, image.width - margin)),
+            std::clamp((texel.y + scale / 2) / scale, margin, std::max(margin, image.height - margin))};
   }
 
   // Sets of more tiles than this are judged by a part of them, evenly spread over the ids.
@@ -325,7 +344,7 @@ private:
   std::vector<double> least_misfits(std::size_t own, const std::array<Side, sides>& tile) const {
     const StripChoices& strip = strips[own];
     std::vector<std::size_t> parts;
-    MisfitMap rest(positions.count());
+    MisfitMap rest = fits;
     for (const Side& side : tile) {
       if (side.strip == own) {
         parts.push_back(side.part);
@@ -387,8 +406,8 @@ private:
     for (const auto& tile : tiles) {
       float least = std::numeric_limits<float>::max();
       for (std::size_t p = 0; p < positions.count(); ++p)
-        least = std::min(least,
-                         map_of(tile[0])[p] + map_of(tile[1])[p] + map_of(tile[2])[p] + map_of(tile[3])[p]);
+        least = std::min(least, fits[p] + map_of(tile[0])[p] + map_of(tile[1])[p] + map_of(tile[2])[p] +
+                                    map_of(tile[3])[p]);
       total += static_cast<double>(least);
     }
     return total;
@@ -401,6 +420,8 @@ private:
   const FrameShape& shape;
   const FrameSearchOptions& options;
   Positions positions;
+  Phase phase;
+  MisfitMap fits; // 0 where an inside would be in step, else infinity
   std::vector<SourceTexel> corners;
   std::vector<StripChoices> strips;
   std::vector<std::array<Side, sides>> tiles;
@@ -430,7 +451,7 @@ FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleS
   FramePlan best =
       plans[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())];
   for (int level = levels - 2; level >= 0; --level)
-    refine_frame(pyramid[static_cast<std::size_t>(level)], halved(shape, level), level == 0, best);
+    refine_frame(pyramid[static_cast<std::size_t>(level)], halved(shape, level), 1 << level, best);
   report(progress, "frame search", 1.0);
   return best;
 }

@@ -103,7 +103,8 @@ void polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std
 // Strips are mended before tiles are made of them, so that what crosses an edge is mended on both its sides.
 // The squares at the lattice points, which all strips there share, stay.
 void mend_strips(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const FrameShape& shape,
-                 const FramedSetSettings& settings, Direction direction, std::vector<SourceCanvas>& strips) {
+                 const FramePlan& plan, const FramedSetSettings& settings, Direction direction,
+                 std::vector<SourceCanvas>& strips) {
   const StripSpace space = space_of(shape, direction);
   const Rect all{0, 0, space.width(), space.height()};
   std::vector<std::uint8_t> fixed;
@@ -112,10 +113,11 @@ void mend_strips(const std::vector<FeatureImage>& pyramid, const PatchSearch& se
       const int along = direction == Direction::horizontal ? x : y;
       fixed.push_back(std::min(along, space.length - 1 - along) < shape.guard);
     }
+  const Phase phase = plan.phase.seen_from(strip_place(space, 1));
   Usage nothing_shown(pyramid.back().width, pyramid.back().height);
   nothing_shown.prepare();
   tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
-    mend_spots(pyramid, search, nothing_shown, fixed, settings.mend, strips[i]);
+    mend_spots(pyramid, search, nothing_shown, phase, fixed, settings.mend, strips[i]);
   });
   PolishOptions coarse = settings.coarse_polish;
   PolishOptions fine = settings.polish;
@@ -171,9 +173,9 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   return settings;
 }
 
-SourceMap framed_set(FeatureImage sample, const SynthOptions& options, const FramedSetSettings& settings,
-                     const Progress& progress) {
-  FrameShape shape = frame_shape(options, settings.reach, settings.corner_reach);
+SourceMap framed_set(FeatureImage sample, const Periodicity& periods, const SynthOptions& options,
+                     const FramedSetSettings& settings, const Progress& progress) {
+  const FrameShape shape = frame_shape(options, periods, settings.reach, settings.corner_reach);
   const std::vector<FeatureImage> pyramid =
       pyramid_down_to(std::move(sample), shape.tile, settings.smallest_search_tile);
   const FeatureImage& image = pyramid.front();
@@ -182,22 +184,23 @@ SourceMap framed_set(FeatureImage sample, const SynthOptions& options, const Fra
   const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
   Frame frame = joined_frame(image, shape, plan);
   tbb::parallel_invoke(
-      [&] { mend_strips(pyramid, search, shape, settings, Direction::horizontal, frame.horizontal); },
-      [&] { mend_strips(pyramid, search, shape, settings, Direction::vertical, frame.vertical); });
+      [&] { mend_strips(pyramid, search, shape, plan, settings, Direction::horizontal, frame.horizontal); },
+      [&] { mend_strips(pyramid, search, shape, plan, settings, Direction::vertical, frame.vertical); });
   auto tiles = framed_tiles(shape, frame);
   const auto interiors =
       chosen_interiors(pyramid, search, statistics, shape, plan, tiles, settings.interiors, progress);
   join_interiors(image, shape, interiors, settings.interiors.bias, tiles);
 
   report(progress, "mending", 0.0);
+  const int margin = margin_of(shape);
+  const Phase phase = plan.phase.seen_from({-margin, -margin});
   const auto fixed = fixed_texels(shape);
   const Usage usage = shown_at(pyramid.back(), 1 << (pyramid.size() - 1), tiles);
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
     tiles[id] = with_margin(shape, plan, frame, id, tiles[id]);
-    mend_spots(pyramid, search, usage, fixed, settings.mend, tiles[id]);
+    mend_spots(pyramid, search, usage, phase, fixed, settings.mend, tiles[id]);
   });
   report(progress, "mending", 0.3);
-  const int margin = margin_of(shape);
   polish_both(pyramid, fixed, {margin, margin, shape.tile.width, shape.tile.height}, settings.coarse_polish,
               settings.polish, tiles);
   for (SourceCanvas& tile : tiles) tile = without_margin(shape, tile);

@@ -28,7 +28,8 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed);
 
 /// Interior::patch: chooses a frame, gives every tile its own inside, joins them by cuts, and mends what is
 /// worst. Both colorings; see FrameShape for the construction.
-SourceMap framed_set(FeatureImage sample, const SynthOptions& options, const FramedSetSettings& settings,
-                     const Progress& progress = {});
+/// `periods`: of the sample; where tiles hold whole periods, all parts are kept in step with them.
+SourceMap framed_set(FeatureImage sample, const Periodicity& periods, const SynthOptions& options,
+                     const FramedSetSettings& settings, const Progress& progress = {});
 
 } // namespace tilepack

@@ -87,7 +87,7 @@ std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
       for (int j = y; j < std::min(map.height, y + block); ++j)
         for (int i = x; i < std::min(map.width, x + block); ++i)
           if (map.at(i, j) < best.misfit) best = {{i, j}, map.at(i, j)};
-      choices.push_back(best);
+      if (best.misfit != ruled_out) choices.push_back(best);
     }
   return choices;
 }
@@ -173,7 +173,9 @@ std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyram
   tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
     Shown shown = shown_by(pyramid.front(), shape, framed[id]);
     for (int level = 1; level < levels; ++level) shown = halved_shown(shown);
-    choices[id] = block_minima(search.mismatches(overlap_of(shown)), limit);
+    PositionMap map = search.mismatches(overlap_of(shown));
+    rule_out_of_step(map, plan.phase, scale);
+    choices[id] = block_minima(map, limit);
     std::sort(choices[id].begin(), choices[id].end(), fits_better);
   });
   report(progress, "interiors", 0.5);

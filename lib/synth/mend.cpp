@@ -3,7 +3,6 @@
 #include "tilepack/synth/cut_move.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace tilepack {
 namespace {
@@ -87,8 +86,6 @@ Overlap shown_in(const FeatureImage& image, const SourceCanvas& canvas, Rect are
   return overlap;
 }
 
-constexpr std::int64_t ruled_out = std::numeric_limits<std::int64_t>::max();
-
 // Rules out the positions of a map around a sample texel: what stems from there is no news.
 void rule_out(PositionMap& map, SourceTexel origin, int scale) {
   constexpr int distance = 2;
@@ -129,7 +126,8 @@ void favour_fresh(PositionMap& map, const Usage& usage, Size window, double fres
 } // namespace
 
 void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const Usage& usage,
-                const std::vector<std::uint8_t>& fixed, const MendOptions& options, SourceCanvas& canvas) {
+                const Phase& phase, const std::vector<std::uint8_t>& fixed, const MendOptions& options,
+                SourceCanvas& canvas) {
   const FeatureImage& image = pyramid.front();
   const int scale = 1 << (pyramid.size() - 1);
   SpotFinder finder(canvas, std::max(1, options.window / 2));
@@ -143,6 +141,7 @@ void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& sea
         area.height > image.height)
       return;
     PositionMap map = search.mismatches(shown_in(image, canvas, area, scale));
+    rule_out_of_step(map, phase.seen_from({area.x, area.y}), scale);
     rule_out_material_of(map, canvas, area, scale);
     favour_fresh(map, usage, {area.width / scale, area.height / scale}, options.freshness);
     const Overlap full = shown_in(image, canvas, area, 1);

@@ -4,6 +4,7 @@
 #include "tilepack/synth/source_map.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct PositionMap {
                   static_cast<std::size_t>(x)];
   }
 };
+
+/// In place of a mismatch: a position that must not be taken.
+constexpr std::int64_t ruled_out = std::numeric_limits<std::int64_t>::max();
 
 /// Compares an overlap with every placement of its patch in an image, by Fourier transform: the time grows
 /// with the image's area, hardly with the patch's.

@@ -31,6 +31,12 @@ inline SourceTexel sum(SourceTexel a, SourceTexel b) {
 /// place in the sample.
 SourceTexel corner_origin(const StripSpace& space, SourceTexel corner, bool second);
 
+/// Where a strip's window lies in the tile south or east of its edge, in texels of a sample `scale` times as
+/// large.
+inline SourceTexel strip_place(const StripSpace& space, int scale) {
+  return space.at(0, -space.reach * scale);
+}
+
 /// What a strip's window overlaps at its two ends.
 Overlap end_overlap(const FeatureImage& image, const FrameShape& shape, const StripSpace& space,
                     SourceTexel first, SourceTexel second);

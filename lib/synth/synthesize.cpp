@@ -72,7 +72,8 @@ SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& opt
   require_fitting(samples, options);
   FeatureImage image = feature_image(samples);
   if (options.interior == Interior::patch)
-    return framed_set(std::move(image), options, settings_for(options.effort, options.seed), progress);
+    return framed_set(std::move(image), detect_periods(samples), options,
+                      settings_for(options.effort, options.seed), progress);
   return quilted(image, options, chosen_edge_patches(image, options, progress));
 }
 

@@ -191,7 +191,7 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
   std::vector<std::uint8_t> fixed(start.texels.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = i % 48 < 22 || i % 7 == 0;
   SourceCanvas mended = start;
-  mend_spots(pyramid, search, unused(pyramid.back()), fixed, {}, mended);
+  mend_spots(pyramid, search, unused(pyramid.back()), {}, fixed, {}, mended);
   CHECK(seam_energy(pyramid[0], mended) < seam_energy(pyramid[0], start));
   std::vector<SourceCanvas> polished{start};
   polish(pyramid[0], 1, fixed, {0, 0, 48, 40}, {}, polished);
@@ -215,7 +215,7 @@ TEST_CASE("mending takes windows that are not shown yet, where they are as like"
   MendOptions options;
   options.spots = 2;
   options.window = 24;
-  mend_spots(pyramid, search, usage, fixed, options, canvas);
+  mend_spots(pyramid, search, usage, {}, fixed, options, canvas);
   std::size_t shown_before = 0;
   std::size_t fresh = 0;
   for (int y = 0; y < 40; ++y)

@@ -1,0 +1,64 @@
+#include "tilepack/synth/phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tilepack {
+namespace {
+
+double whole_period(const Period& period, int side) {
+  if (period.length <= 0.0) return 0.0;
+  const double off = side - std::max(1.0, std::round(side / period.length)) * period.length;
+  return std::abs(off) <= std::max(1.0, 0.03 * period.length) ? period.length : 0.0;
+}
+
+} // namespace
+
+Phase::Phase(const Periodicity& periodicity, Size tile)
+    : x{whole_period(periodicity.x, tile.width), 0.0}, y{whole_period(periodicity.y, tile.height), 0.0} {}
+
+Phase Phase::through(SourceTexel texel) const {
+  Phase moved = *this;
+  moved.x.origin = texel.x;
+  moved.y.origin = texel.y;
+  return moved;
+}
+
+Phase Phase::seen_from(SourceTexel place) const {
+  Phase moved = *this;
+  moved.x.origin += place.x;
+  moved.y.origin += place.y;
+  return moved;
+}
+
+bool Phase::allows(SourceTexel texel, int step) const {
+  return x.allows(texel.x, step) && y.allows(texel.y, step);
+}
+
+SourceTexel Phase::nearest(SourceTexel texel, SourceTexel low, SourceTexel high) const {
+  return {x.nearest(texel.x, low.x, high.x), y.nearest(texel.y, low.y, high.y)};
+}
+
+bool Phase::Axis::allows(int texel, int step) const {
+  if (period <= 0.0) return true;
+  const double off = std::abs(std::remainder(texel - origin, period));
+  return off <= std::max({1.0, 0.5 * step, period / 32.0});
+}
+
+int Phase::Axis::nearest(int texel, int low, int high) const {
+  if (period <= 0.0) return texel;
+  double place = texel - std::remainder(texel - origin, period);
+  if (place < low) place += period;
+  if (place > high) place -= period;
+  return static_cast<int>(std::lround(place));
+}
+
+void rule_out_of_step(PositionMap& map, const Phase& phase, int scale) {
+  if (phase.free()) return;
+  std::size_t i = 0;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x, ++i)
+      if (!phase.allows({x * scale, y * scale}, scale)) map.values[i] = ruled_out;
+}
+
+} // namespace tilepack
