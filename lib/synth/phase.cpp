@@ -42,7 +42,7 @@ SourceTexel Phase::nearest(SourceTexel texel, SourceTexel low, SourceTexel high)
 bool Phase::Axis::allows(int texel, int step) const {
   if (period <= 0.0) return true;
   const double off = std::abs(std::remainder(texel - origin, period));
-  return off <= std::max({1.0, 0.5 * step, period / 32.0});
+  return off <= std::max({1.0, 0.5 * step, period / 64.0});
 }
 
 int Phase::Axis::nearest(int texel, int low, int high) const {

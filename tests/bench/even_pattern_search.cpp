@@ -1,73 +1,195 @@
 // Searches for the patterns of lib/mapping/even_pattern.cpp and prints one as C++.
 //
-//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 110 sweeps, some minutes
+//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 6000 sweeps, some minutes
 //
 // A pattern is a torus of corner colors. Wherever one looks at it through a window of 8 x 8 or 16 x 16 tiles,
-// no displacement should bring many tiles onto equal ones, and all tiles should be shown about equally often.
-// One corner after the other is recolored at random; what worsens the sum below by more than a threshold,
-// which falls to nothing, is taken back.
+// all tiles should be shown equally often and no displacement should bring many tiles onto equal ones. One
+// corner after the other is recolored at random; what worsens the sum below by more than a threshold, which
+// falls to nothing, is taken back. Everything counted is an integer, so taking back is exact.
 
 #include "tilepack/tileset/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 #include <vector>
 
 namespace {
 
 constexpr int side = 64;
 constexpr double pi = 3.14159265358979323846;
-constexpr double balance = 0.001; // weight of uneven counts
 
-struct Lag {
-  int dx, dy;
-  double norm; // one over the sum of the weights of all pairs this far apart
+constexpr std::size_t at(int x, int y) {
+  return static_cast<std::size_t>((y & (side - 1)) * side + (x & (side - 1)));
+}
+
+/// Windows of one size at every `stride`-th tile, what is counted in them, and what the counts cost.
+struct View {
+  int window, stride, farthest;
+  double repeat_cost; ///< of the fourth power of the share of equal pairs at one displacement
+  double uneven_cost; ///< of the squared difference of a tile's count from the fair one, as a share of it
 };
 
-/// Windows of one size at every `stride`-th tile. Tiles at a window's middle count more: whoever looks at a
-/// repeat looks at both places at once.
-struct Scale {
-  int window, stride, farthest;
-  double importance;
-  std::vector<double> weight;
+class Windows {
+public:
+  Windows(const View& chosen, int tile_count)
+      : view(chosen), tiles(tile_count), a_side(side / view.stride),
+        fair(static_cast<float>(view.window * view.window) / static_cast<float>(tile_count)) {
+    // Tiles at a window's middle count more: whoever looks at a repeat looks at both places at once.
+    std::vector<int> weight;
+    for (int i = 0; i < view.window; ++i)
+      weight.push_back(static_cast<int>(std::lround(16 - 16 * std::cos(2 * pi * (i + 0.5) / view.window))));
+    pair_weight.resize(static_cast<std::size_t>(view.farthest + 1));
+    std::vector<double> total;
+    for (int d = 0; d <= view.farthest; ++d) {
+      total.push_back(0);
+      for (int i = 0; i + d < view.window; ++i) {
+        pair_weight[static_cast<std::size_t>(d)].push_back(weight[static_cast<std::size_t>(i)] *
+                                                           weight[static_cast<std::size_t>(i + d)]);
+        total.back() += pair_weight[static_cast<std::size_t>(d)].back();
+      }
+    }
+    for (int dy = 0; dy <= view.farthest; ++dy)
+      for (int dx = -view.farthest; dx <= view.farthest; ++dx)
+        if (dy > 0 || dx > 0)
+          lags.push_back({dx, dy,
+                          static_cast<float>(1 / (total[static_cast<std::size_t>(std::abs(dx))] *
+                                                  total[static_cast<std::size_t>(dy)]))});
+    const auto all = static_cast<std::size_t>(a_side * a_side);
+    equal.assign(lags.size() * all, 0);
+    shown.assign(static_cast<std::size_t>(tiles) * all, 0);
+    uneven_unit = view.uneven_cost / (static_cast<double>(fair) * fair * tiles);
+  }
+
+  struct Lag {
+    int dx, dy;
+    float norm; ///< one over the sum of the weights of all pairs this far apart
+  };
+
+  /// Adds (sign 1) or takes away (-1) the pair of tiles (x, y) and (x, y) + lag; returns what it costs more.
+  double pair(std::size_t l, int x, int y, int sign) {
+    const Lag& lag = lags[l];
+    const int near = std::min(x, x + lag.dx);
+    const int reach_x = view.window - std::abs(lag.dx);
+    const int reach_y = view.window - lag.dy;
+    const int* wx = pair_weight[static_cast<std::size_t>(std::abs(lag.dx))].data();
+    const int* wy = pair_weight[static_cast<std::size_t>(lag.dy)].data();
+    int* plane = &equal[l * static_cast<std::size_t>(a_side * a_side)];
+    float more = 0;
+    for (int j = first(y); j < reach_y; j += view.stride) {
+      int* row = plane + ((y - j) & (side - 1)) / view.stride * a_side;
+      const int scaled = sign * wy[j];
+      for (int i = first(near); i < reach_x; i += view.stride) {
+        int& e = row[((near - i) & (side - 1)) / view.stride];
+        const float before = static_cast<float>(e) * lag.norm;
+        e += scaled * wx[i];
+        const float after = static_cast<float>(e) * lag.norm;
+        const float b = before * before;
+        const float a = after * after;
+        more += a * a - b * b;
+      }
+    }
+    return view.repeat_cost * static_cast<double>(more);
+  }
+
+  /// The same for a tile of this kind at (x, y).
+  double show(int x, int y, int kind, int sign) {
+    int* plane = &shown[static_cast<std::size_t>(kind * a_side * a_side)];
+    float more = 0;
+    for (int j = first(y); j < view.window; j += view.stride) {
+      int* row = plane + ((y - j) & (side - 1)) / view.stride * a_side;
+      for (int i = first(x); i < view.window; i += view.stride) {
+        int& n = row[((x - i) & (side - 1)) / view.stride];
+        more += 2 * static_cast<float>(sign) * (static_cast<float>(n) - fair) + 1;
+        n += sign;
+      }
+    }
+    return uneven_unit * static_cast<double>(more);
+  }
+
+  /// For the window at this place in the list: the largest share of equal pairs.
+  double most_equal(std::size_t w) const {
+    float most = 0;
+    for (std::size_t l = 0; l < lags.size(); ++l)
+      most = std::max(most,
+                      static_cast<float>(equal[l * static_cast<std::size_t>(a_side * a_side) + w]) * lags[l].norm);
+    return static_cast<double>(most);
+  }
+  double unevenness(std::size_t w) const {
+    double sum = 0;
+    for (int t = 0; t < tiles; ++t) {
+      const double off = shown[static_cast<std::size_t>(t * a_side * a_side) + w] / static_cast<double>(fair) - 1;
+      sum += off * off;
+    }
+    return sum / tiles;
+  }
+  void report() const {
+    std::vector<double> most;
+    double uneven = 0;
+    for (std::size_t w = 0; w < static_cast<std::size_t>(a_side * a_side); ++w) {
+      most.push_back(most_equal(w));
+      uneven += unevenness(w);
+    }
+    const double windows = static_cast<double>(most.size());
+    std::sort(most.begin(), most.end());
+    std::fprintf(stderr, "  %2d: equal %.3f median %.3f 90 %% %.3f 99 %%, uneven %.3f", view.window,
+                 most[most.size() / 2], most[most.size() * 9 / 10], most[most.size() * 99 / 100],
+                 std::sqrt(uneven / windows));
+  }
+
+  const View view;
+  const int tiles;
+  const int a_side;
   std::vector<Lag> lags;
-  std::vector<double> equal; ///< window, lag: share of equal pairs
-  std::vector<double> share; ///< window, tile: how often it is shown, 1 is fair
-  double even = 0;           ///< one over the sum of weights
-  int windows() const { return side / stride; }
+
+private:
+  /// The offset, 0 to stride - 1, of a tile in the nearest window of the list that begins at or before it.
+  int first(int x) const { return x & (view.stride - 1); }
+
+  float fair;
+  double uneven_unit;
+  std::vector<std::vector<int>> pair_weight; ///< distance along an axis, place in the window
+  std::vector<int> equal;                    ///< lag, window: weights of equal pairs
+  std::vector<int> shown;                    ///< tile, window: how often it is shown
 };
 
 class Search {
 public:
-  Search(int color_count, std::uint64_t random_seed)
-      : colors(color_count), tiles(colors * colors * colors * colors), seed(random_seed), corner(side * side),
-        tile(side * side) {
+  Search(int color_count, std::uint64_t random_seed, const std::vector<View>& views)
+      : colors(color_count), seed(random_seed), corner(side * side), tile(side * side) {
     for (std::size_t i = 0; i < corner.size(); ++i)
       corner[i] = static_cast<int>(tilepack::random_below(seed, "corner", i, static_cast<unsigned>(colors)));
-    scales.push_back(scale(8, 2, 4, 0.25));
-    scales.push_back(scale(16, 8, 8, 1.2));
+    for (const View& view : views) all.emplace_back(view, colors * colors * colors * colors);
     for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) tile[at(x, y)] = id(x, y);
-    for (Scale& s : scales) count(s);
+      for (int x = 0; x < side; ++x) tile[at(x, y)] = kind(x, y);
+    for (Windows& windows : all)
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+          windows.show(x, y, tile[at(x, y)], 1);
+          for (std::size_t l = 0; l < windows.lags.size(); ++l)
+            if (tile[at(x, y)] == tile[at(x + windows.lags[l].dx, y + windows.lags[l].dy)])
+              windows.pair(l, x, y, 1);
+        }
   }
 
-  void run(int sweeps) {
+  void run(int sweeps, double threshold) {
     const auto steps = static_cast<std::uint64_t>(sweeps) * corner.size();
-    std::uint64_t taken = 0;
     for (std::uint64_t n = 0; n < steps; ++n) {
       const std::uint64_t bits = tilepack::random_bits(seed, "step", n);
       const int x = static_cast<int>(bits % side);
       const int y = static_cast<int>(bits / side % side);
       const double left = 1.0 - static_cast<double>(n) / static_cast<double>(steps);
-      taken += recolored(x, y, 1 + static_cast<int>((bits >> 32) % static_cast<unsigned>(colors - 1)),
-                         0.008 * left * left * left);
-      if ((n + 1) % (steps / 8) == 0)
-        std::fprintf(stderr, "%3.0f %%: %.4f, %llu steps taken\n", 100 * (1 - left), energy(),
-                     static_cast<unsigned long long>(taken));
+      const int before = corner[at(x, y)];
+      const int by = 1 + static_cast<int>((bits >> 32) % static_cast<unsigned>(colors - 1));
+      if (recolor(x, y, (before + by) % colors) > threshold * left * left) recolor(x, y, before);
+      if ((n + 1) % (steps / 8) == 0) {
+        std::fprintf(stderr, "%3.0f %%", 100 * (1 - left));
+        for (const Windows& windows : all) windows.report();
+        std::fprintf(stderr, "\n");
+      }
     }
   }
 
@@ -80,163 +202,55 @@ public:
   }
 
 private:
-  static std::size_t at(int x, int y) {
-    return static_cast<std::size_t>((y & (side - 1)) * side + (x & (side - 1)));
-  }
-  int id(int x, int y) const {
+  int kind(int x, int y) const {
     return ((corner[at(x, y)] * colors + corner[at(x + 1, y)]) * colors + corner[at(x, y + 1)]) * colors +
            corner[at(x + 1, y + 1)];
   }
 
-  Scale scale(int window, int stride, int farthest, double importance) const {
-    Scale s{window, stride, farthest, importance, {}, {}, {}, {}};
-    double total = 0;
-    for (int i = 0; i < window; ++i) {
-      s.weight.push_back(0.5 - 0.5 * std::cos(2 * pi * (i + 0.5) / window));
-      total += s.weight.back();
-    }
-    s.even = 1 / (total * total);
-    for (int dy = 0; dy <= farthest; ++dy)
-      for (int dx = -farthest; dx <= farthest; ++dx) {
-        if (dy == 0 && dx <= 0) continue;
-        double sum = 0;
-        for (int y = 0; y + dy < window; ++y)
-          for (int x = std::max(0, -dx); x < window - std::max(0, dx); ++x)
-            sum += s.weight[y] * s.weight[x] * s.weight[y + dy] * s.weight[x + dx];
-        s.lags.push_back({dx, dy, 1 / sum});
-      }
-    const auto all = static_cast<std::size_t>(s.windows() * s.windows());
-    s.equal.assign(all * s.lags.size(), 0.0);
-    s.share.assign(all * static_cast<std::size_t>(tiles), 0.0);
-    return s;
-  }
-
-  void count(Scale& s) {
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        for (std::size_t l = 0; l < s.lags.size(); ++l)
-          if (tile[at(x, y)] == tile[at(x + s.lags[l].dx, y + s.lags[l].dy)]) pair(s, x, y, l, 1);
-        show(s, x, y, tile[at(x, y)], 1);
-      }
-  }
-
-  template <typename Visit>
-  static void windows_with(const Scale& s, int first_x, int last_x, int first_y, int last_y, Visit visit) {
-    for (int wy = first_y; wy <= last_y; ++wy) {
-      if (wy & (s.stride - 1)) continue;
-      for (int wx = first_x; wx <= last_x; ++wx)
-        if (!(wx & (s.stride - 1)))
-          visit(static_cast<std::size_t>((wy & (side - 1)) / s.stride * s.windows() +
-                                         (wx & (side - 1)) / s.stride),
-                wx, wy);
-    }
-  }
-
-  double change(std::vector<double>& values, std::size_t i, double by) {
-    undo.push_back({&values[i], values[i]});
-    const double before = values[i];
-    values[i] = before + by;
-    return before;
-  }
-
-  double pair(Scale& s, int x, int y, std::size_t l, int sign) {
-    const Lag& lag = s.lags[l];
+  /// What it costs more to give the corner this color, which is done.
+  double recolor(int x, int y, int color) {
+    corner[at(x, y)] = color;
     double more = 0;
-    windows_with(s, std::max(x, x + lag.dx) - s.window + 1, std::min(x, x + lag.dx),
-                 y + lag.dy - s.window + 1, y, [&](std::size_t w, int wx, int wy) {
-                   const double by = sign * lag.norm * s.weight[y - wy] * s.weight[y + lag.dy - wy] *
-                                     s.weight[x - wx] * s.weight[x + lag.dx - wx];
-                   const double before = change(s.equal, w * s.lags.size() + l, by);
-                   const double a = before * before, b = (before + by) * (before + by);
-                   more += b * b - a * a;
-                 });
-    return s.importance * more;
-  }
-
-  double show(Scale& s, int x, int y, int which, int sign) {
-    double more = 0;
-    windows_with(s, x - s.window + 1, x, y - s.window + 1, y, [&](std::size_t w, int wx, int wy) {
-      const double by = sign * tiles * s.even * s.weight[y - wy] * s.weight[x - wx];
-      const double before =
-          change(s.share, w * static_cast<std::size_t>(tiles) + static_cast<std::size_t>(which), by);
-      more += (before + by - 1) * (before + by - 1) - (before - 1) * (before - 1);
-    });
-    return balance * s.importance * more * 16 / tiles;
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i) more += replace(x - i, y - j, kind(x - i, y - j));
+    return more;
   }
 
   double replace(int x, int y, int now) {
     const int old = tile[at(x, y)];
-    if (old == now) return 0;
     double more = 0;
-    for (Scale& s : scales) {
-      for (std::size_t l = 0; l < s.lags.size(); ++l) {
-        const Lag& lag = s.lags[l];
+    for (Windows& windows : all) {
+      for (std::size_t l = 0; l < windows.lags.size(); ++l) {
+        const auto& lag = windows.lags[l];
         const int ahead = tile[at(x + lag.dx, y + lag.dy)];
         const int behind = tile[at(x - lag.dx, y - lag.dy)];
-        if (ahead == old || ahead == now) more += pair(s, x, y, l, ahead == now ? 1 : -1);
+        if (ahead == old || ahead == now) more += windows.pair(l, x, y, ahead == now ? 1 : -1);
         if (behind == old || behind == now)
-          more += pair(s, x - lag.dx, y - lag.dy, l, behind == now ? 1 : -1);
+          more += windows.pair(l, x - lag.dx, y - lag.dy, behind == now ? 1 : -1);
       }
-      more += show(s, x, y, old, -1) + show(s, x, y, now, 1);
+      more += windows.show(x, y, old, -1) + windows.show(x, y, now, 1);
     }
     tile[at(x, y)] = now;
     return more;
   }
 
-  bool recolored(int x, int y, int by, double threshold) {
-    undo.clear();
-    const int before = corner[at(x, y)];
-    int tiles_before[2][2];
-    corner[at(x, y)] = (before + by) % colors;
-    double more = 0;
-    for (int j = 0; j < 2; ++j)
-      for (int i = 0; i < 2; ++i) {
-        tiles_before[j][i] = tile[at(x - i, y - j)];
-        more += replace(x - i, y - j, id(x - i, y - j));
-      }
-    if (more < threshold) return true;
-    corner[at(x, y)] = before;
-    for (std::size_t u = undo.size(); u-- > 0;) *undo[u].value = undo[u].before;
-    for (int j = 0; j < 2; ++j)
-      for (int i = 0; i < 2; ++i) tile[at(x - i, y - j)] = tiles_before[j][i];
-    return false;
-  }
-
-  double energy() const {
-    double sum = 0;
-    for (const Scale& s : scales) {
-      double worst = 0, uneven = 0;
-      for (const double e : s.equal) {
-        sum += s.importance * e * e * e * e * e * e;
-        worst = std::max(worst, e);
-      }
-      for (const double v : s.share) uneven += (v - 1) * (v - 1);
-      sum += balance * s.importance * uneven * 16 / tiles;
-      std::fprintf(stderr, "[worst %.3f uneven %.3f] ", worst,
-                   std::sqrt(uneven / static_cast<double>(s.share.size())));
-    }
-    return sum;
-  }
-
-  struct Change {
-    double* value;
-    double before;
-  };
   int colors;
-  int tiles;
   std::uint64_t seed;
   std::vector<int> corner;
   std::vector<int> tile;
-  std::vector<Scale> scales;
-  std::vector<Change> undo;
+  std::vector<Windows> all;
 };
 
 } // namespace
 
 int main(int argc, char** argv) {
   const int colors = argc > 1 ? std::atoi(argv[1]) : 2;
-  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 110;
-  Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 2);
-  search.run(sweeps);
+  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 6000;
+  const double u = std::getenv("U") ? std::atof(std::getenv("U")) : 0.05;
+  const double th = std::getenv("TH") ? std::atof(std::getenv("TH")) : 0.01;
+  const double big = std::getenv("BIG") ? std::atof(std::getenv("BIG")) : 4;
+  Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 2,
+                {{8, 2, 4, 4, 4*u}, {16, 4, 8, big, big*u}});
+  search.run(sweeps, th);
   search.print();
 }
