@@ -311,8 +311,9 @@ private:
 
   // The place of a corner patch nearest to this one that is in step with the first.
   SourceTexel in_step(SourceTexel at, int margin) const {
-    const SourceTexel texel = phase.nearest({at.x * scale, at.y * scale}, {margin * scale, margin * scale},
-                                            {(image.width - margin) * scale, (image.height - margin) * scale});
+    const SourceTexel texel =
+        phase.nearest({at.x * scale, at.y * scale}, {margin * scale, margin * scale},
+                      {(image.width - margin) * scale, (image.height - margin) * scale});
     return {std::clamp((texel.x + scale / 2) / scale, margin, std::max(margin, image.width - margin)),
             std::clamp((texel.y + scale / 2) / scale, margin, std::max(margin, image.height - margin))};
   }

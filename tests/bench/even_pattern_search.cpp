@@ -1,6 +1,6 @@
 // Searches for the patterns of lib/mapping/even_pattern.cpp and prints one as C++.
 //
-//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 6000 sweeps, some minutes
+//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 3000 sweeps, up to an hour
 //
 // A pattern is a torus of corner colors. Wherever one looks at it through a window of 8 x 8 or 16 x 16 tiles,
 // all tiles should be shown equally often and no displacement should bring many tiles onto equal ones. One
@@ -114,14 +114,15 @@ public:
   double most_equal(std::size_t w) const {
     float most = 0;
     for (std::size_t l = 0; l < lags.size(); ++l)
-      most = std::max(most,
-                      static_cast<float>(equal[l * static_cast<std::size_t>(a_side * a_side) + w]) * lags[l].norm);
+      most = std::max(most, static_cast<float>(equal[l * static_cast<std::size_t>(a_side * a_side) + w]) *
+                                lags[l].norm);
     return static_cast<double>(most);
   }
   double unevenness(std::size_t w) const {
     double sum = 0;
     for (int t = 0; t < tiles; ++t) {
-      const double off = shown[static_cast<std::size_t>(t * a_side * a_side) + w] / static_cast<double>(fair) - 1;
+      const double off =
+          shown[static_cast<std::size_t>(t * a_side * a_side) + w] / static_cast<double>(fair) - 1;
       sum += off * off;
     }
     return sum / tiles;
@@ -245,12 +246,9 @@ private:
 
 int main(int argc, char** argv) {
   const int colors = argc > 1 ? std::atoi(argv[1]) : 2;
-  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 6000;
-  const double u = std::getenv("U") ? std::atof(std::getenv("U")) : 0.05;
-  const double th = std::getenv("TH") ? std::atof(std::getenv("TH")) : 0.01;
-  const double big = std::getenv("BIG") ? std::atof(std::getenv("BIG")) : 4;
-  Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 2,
-                {{8, 2, 4, 4, 4*u}, {16, 4, 8, big, big*u}});
-  search.run(sweeps, th);
+  const int sweeps = argc > 2 ? std::atoi(argv[2]) : 3000;
+  Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1,
+                {{8, 2, 4, 4.0, 0.4}, {16, 4, 8, 1.0, 0.1}});
+  search.run(sweeps, 0.3);
   search.print();
 }
