@@ -4,6 +4,7 @@
 #include "tilepack/pack/bake_fields.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/flatten.h"
 #include "tilepack/synth/period.h"
 #include "tilepack/tileset/sequential_set.h"
 
@@ -100,6 +101,23 @@ void check_samples(std::span<const SampleMap> samples, const BakeOptions& option
   }
 }
 
+void check_flatten(int percent) {
+  if (percent < 0 || percent > 100)
+    throw Error(ErrorKind::usage, "--flatten",
+                fmt::format("{} is not allowed; it must be 0 to 100 percent", percent));
+}
+
+// Values can leave the range that is stored: four times as bright is too much for some half.
+std::vector<SampleMap> flattened_maps(std::span<const SampleMap> samples, const BakeOptions& options,
+                                      Size tile) {
+  std::vector<SampleMap> maps;
+  for (const SampleMap& map : samples) {
+    maps.push_back(flattened(map, options.flatten / 100.0, tile));
+    check_values(maps.back(), options.depth.value_or(map.depth));
+  }
+  return maps;
+}
+
 // The sources of the tiles of `wanted`, in its order: ids change.
 SourceMap subset(SourceMap complete, const TileColors& wanted) {
   if (complete.tiles == wanted) return complete;
@@ -127,8 +145,15 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   const TileColors wanted = wanted_tiles(options);
   check_packing(options, wanted, synth.tile_size); // before the long stage
   check_fit(samples[0], synth.tile_size);
+  check_flatten(options.flatten);
   BakedPack result;
   result.synth = synth;
+  result.flatten = options.flatten;
+  if (options.flatten > 0) {
+    report(progress, "flattening", 0.0);
+    result.flattened = flattened_maps(samples, options, synth.tile_size);
+    samples = result.flattened;
+  }
   result.sources = subset(synthesize(samples, synth, progress), wanted);
   report(progress, "figures", 0.0);
   result.report = set_report(feature_image(samples), result.sources);

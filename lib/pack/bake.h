@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace tilepack {
 
@@ -31,9 +32,11 @@ struct BakeOptions : PackingOptions {
   SynthOptions synth;
   bool fit_tile_size = false; ///< tile sides become whole periods of the sample, near synth.tile_size
   TileChoice set = TileChoice::complete;
+  int flatten = 0; ///< percent of slow shading taken out of the sample, 0..100 (synth/flatten.h)
 };
 
-/// Sample maps → synthesis → layout → mips → mapping → pack, in memory. `samples[0]` is the main map.
+/// Sample maps → flattening → synthesis → layout → mips → mapping → pack, in memory. `samples[0]` is the main
+/// map.
 ///
 /// Throws Error: usage for options that are out of range, contradict each
 /// other or would make a texture over most_texels_a_level; invalid_content for samples of unequal sizes or
@@ -46,6 +49,15 @@ struct BakedPack {
   SourceMap sources;  ///< where the pack's tiles come from, by the pack's ids
   SetReport report;   ///< of these sources
   SynthOptions synth; ///< as used: tile_size is the fitted one
+  int flatten = 0;    ///< as in the options
+
+  /// The sample maps after flattening, which all above is about; none if flatten is 0.
+  std::vector<SampleMap> flattened;
+
+  /// The sample maps that the tiles are copied from. `given`: those that baked() got.
+  std::span<const SampleMap> samples_used(std::span<const SampleMap> given) const {
+    return flattened.empty() ? given : std::span<const SampleMap>(flattened);
+  }
 };
 
 /// As bake, which returns the pack alone.

@@ -44,6 +44,16 @@ double drift_of(const FeatureImage& image, Size tile, int channels) {
   return within > 0 ? std::clamp(between / within, 0.0, 1.0) : 0.0;
 }
 
+// Means of patches without order: those of a square have a quarter of the variance of those of its quarters.
+double shading_of(const FeatureImage& image, Size tile, int channels) {
+  const int tiles = std::max(1, std::min(image.width / (4 * tile.width), image.height / (4 * tile.height)));
+  const Size square{tile.width * tiles, tile.height * tiles};
+  if (square.width > image.width || square.height > image.height) return 0.0;
+  if ((image.width / square.width) * (image.height / square.height) < 4) return 0.0;
+  const Size quarter{std::max(1, square.width / 2), std::max(1, square.height / 2)};
+  return drift_of(image, square, channels) - drift_of(image, quarter, channels) / 4;
+}
+
 struct Tones {
   double explained = 0;
   double smaller = 0;
@@ -83,7 +93,8 @@ Tones tones_of(const FeatureImage& image, int channels) {
 SampleNature sample_nature(std::span<const SampleMap> samples, const FeatureImage& image, Size tile) {
   const int channels = std::min(image.channels, 3);
   const Tones tones = tones_of(image, channels);
-  return {detect_periods(samples), drift_of(image, tile, channels), tones.explained, tones.smaller};
+  return {detect_periods(samples), drift_of(image, tile, channels), shading_of(image, tile, channels),
+          tones.explained, tones.smaller};
 }
 
 } // namespace tilepack

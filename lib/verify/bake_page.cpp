@@ -113,6 +113,8 @@ std::string figures_table(const BakeFacts& facts) {
       "texels; tiles should hold whole ones: --tile-size auto");
   row("drift of the sample", share(facts.nature.drift),
       "of its variance lies between areas of a tile's size; tiles can't follow it");
+  row("shading of the sample", share(facts.nature.shading),
+      "of its variance is slow and not patches without order: where tiles differ in tone, --flatten");
   row("two tones", share(facts.nature.two_tone),
       "of its variance are explained by two tones; 64 % in a bell curve");
   return out + "</table>\n";
@@ -157,7 +159,8 @@ std::string options_table(const Generator& generator) {
 
 } // namespace
 
-std::string bake_page(const BakeStory& story, const BakedPack& made, std::span<const SampleMap> samples) {
+std::string bake_page(const BakeStory& story, const BakedPack& made, std::span<const SampleMap> given) {
+  const std::span<const SampleMap> samples = made.samples_used(given);
   constexpr int most_tiles = 64;
   const BakeFacts& facts = story.facts;
   const SetReport& report = facts.report;
@@ -165,10 +168,11 @@ std::string bake_page(const BakeStory& story, const BakedPack& made, std::span<c
   const Image sample = viewable(main.image, main.role, main.encoding);
   const Size tile = made.pack.tile_size;
   std::string page = head;
-  page += fmt::format("<h1>{}</h1>\n<p>{} x {} texels, {} map{}; {} tile{} of {} x {} texels.</p>\n",
+  page += fmt::format("<h1>{}</h1>\n<p>{} x {} texels, {} map{}{}; {} tile{} of {} x {} texels.</p>\n",
                       escaped(story.sample), facts.sample.width, facts.sample.height, samples.size(),
-                      samples.size() == 1 ? "" : "s", facts.tiles, facts.tiles == 1 ? "" : "s", tile.width,
-                      tile.height);
+                      samples.size() == 1 ? "" : "s",
+                      made.flatten > 0 ? fmt::format(", flattened by {} %", made.flatten) : "", facts.tiles,
+                      facts.tiles == 1 ? "" : "s", tile.width, tile.height);
   page += verdict_box(bake_verdict(facts));
 
   page += "<h2>The texture and its tiles</h2>\n<div class=\"row\">\n";

@@ -14,13 +14,16 @@ namespace tilepack {
 /// All that can be said about a finished bake, in numbers.
 struct BakeFacts {
   SetReport report;
-  SeamFigures seams; ///< of level 0 of the first map
-  SampleNature nature;
-  SynthOptions synth; ///< as used
+  SeamFigures seams;     ///< of level 0 of the first map
+  SampleNature nature;   ///< of the sample as used: after flattening
+  SynthOptions synth;    ///< as used
+  int flatten = 0;       ///< percent, as used
+  double flat_drift = 0; ///< nature.drift with --flatten 100; only found where it matters, else 0
   Size sample;
   int tiles = 0;
 };
 
+/// `samples`: those that baked() got.
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples);
 
 enum class Grade { good, fair, poor };

@@ -96,6 +96,7 @@ Json synthesis_json(const BakeFacts& facts) {
   json["border_step"] = facts.seams.seam;
   json["periods"] = {facts.nature.periods.x.length, facts.nature.periods.y.length};
   json["drift"] = facts.nature.drift;
+  json["shading"] = facts.nature.shading;
   json["two_tone"] = facts.nature.two_tone;
   json["ink"] = facts.nature.ink;
   const Landmark& mark = facts.report.landmark;

@@ -71,6 +71,25 @@ class Bake(CommandCase):
         self.bake("--seed", 1, output="other")
         self.assertNotEqual(self.contents("one")["color_0.png"], self.contents("other")["color_0.png"])
 
+    def test_flattening_is_an_option_like_others(self):
+        self.bake(output="plain")
+        self.bake("--flatten", 0, output="none")
+        self.assertEqual(self.contents("plain"), self.contents("none"))
+        self.assertNotIn("flatten", self.pack("plain")["generator"]["options"])
+        self.bake("--flatten", 100, "--jobs", 1, output="one")
+        self.bake("--flatten", 100, "--jobs", 4, output="four")
+        self.assertEqual(self.contents("one"), self.contents("four"))
+        self.assertNotEqual(self.contents("one")["color_0.png"], self.contents("plain")["color_0.png"])
+        self.assertEqual(self.pack("one")["generator"]["options"]["flatten"], "100")
+        self.write_json("even.json", {"purpose": "p", "cost": "c", "flatten": 100, "tile-size": 16, "effort": 0,
+                                      "virtual-size": 8})
+        self.run_tilepack("bake", "sample.png", "-o", "preset", "--preset", self.path("even.json"))
+        self.assertEqual(self.contents("preset"), self.contents("one"))
+        self.run_tilepack("validate", "one")
+        for value in ("101", "-1", "half"):
+            self.refused("bake", "sample.png", "-o", "no", *SMALL, f"--flatten={value}", code=1,
+                         saying="a whole number of 0 to 100")
+
     def test_nothing_of_the_machine_is_recorded(self):
         self.bake(output="plain")
         os.mkdir(self.path("deep"))

@@ -36,6 +36,7 @@ const std::map<std::string, Values> values_of_fields{
     {"tile-size",
      {{"4", "4096", "96x64", "auto"},
       {"3", "4097", "0", "-5", "128x", "x128", "1x2x3", "128 ", "1e3", "", "Auto"}}},
+    {"flatten", {{"1", "100"}, {"-1", "101", "50%", "0.5", ""}}},
     {"coloring", {{"edge", "corner"}, {"", "edges", "Edge"}}},
     {"colors", {{"1", "8", "3x2"}, {"0", "9", "2x9", "-1", "two", "1.5"}}},
     {"set", {{"complete", "sequential"}, {"small", ""}}},
@@ -83,6 +84,7 @@ TEST_CASE("every field takes its values, gives them back and refuses others", "[
 
 TEST_CASE("choices are listed where one is refused", "[pack]") {
   CHECK(fault("coloring", "edges") == "--coloring: 'edges' is not allowed; it must be edge|corner");
+  CHECK(fault("flatten", "150") == "--flatten: '150' is not allowed; it must be a whole number of 0 to 100");
   CHECK(fault("effort", "10") == "--effort: '10' is not allowed; it must be a whole number of 0 to 9");
 }
 
@@ -109,6 +111,7 @@ TEST_CASE("recorded options make the same options again", "[pack]") {
   for (const auto& [name, value] : recorded) {
     CHECK(name != "seed");   // stands beside the options
     CHECK(name != "format"); // was not set
+    CHECK(name != "flatten");
     again.push_back({name, value, "", ErrorKind::usage});
   }
   CHECK(recorded_options(bake_options(again)) == recorded);

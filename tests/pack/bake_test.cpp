@@ -85,6 +85,63 @@ TEST_CASE("a report belongs to the tiles of its pack", "[pack]") {
   }
 }
 
+TEST_CASE("flattening comes before all else", "[pack]") {
+  std::vector<SampleMap> samples{sample("color", Role::color, Depth::u8, 3),
+                                 sample("normal", Role::normal, Depth::u8, 3),
+                                 sample("height", Role::height, Depth::u16, 1)};
+  for (SampleMap& map : samples)
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        for (float& v : map.image.texel(x, y))
+          v = quantised(v * (0.4f + 0.6f * static_cast<float>(x) / 63.0f), map.depth);
+  BakeOptions options = small_options();
+  const BakedPack plain = baked(samples, options);
+  CHECK(plain.flattened.empty());
+  CHECK(plain.samples_used(samples).data() == samples.data());
+  options.flatten = 100;
+  const BakedPack made = baked(samples, options);
+  CHECK(made.flatten == 100);
+  const auto used = made.samples_used(samples);
+  REQUIRE(used.size() == 3);
+  CHECK(used[0].image != samples[0].image);
+  CHECK(used[1].image == samples[1].image);
+  CHECK(used[2].image != samples[2].image);
+  // The tiles, the figures and the record are those of the flattened maps.
+  BakeOptions none = options;
+  none.flatten = 0;
+  const BakedPack again = baked(used, none);
+  CHECK(again.sources.texels == made.sources.texels);
+  CHECK(again.report.figures == made.report.figures);
+  for (std::size_t m = 0; m < 3; ++m) CHECK(again.pack.maps[m].levels == made.pack.maps[m].levels);
+  CHECK(made.sources.texels != plain.sources.texels);
+  const auto recorded = [](const BakedPack& b) {
+    for (const auto& [name, value] : b.pack.generator.options)
+      if (name == "flatten") return value;
+    return std::string();
+  };
+  CHECK(recorded(made) == "100");
+  CHECK(recorded(plain).empty());
+  for (const int percent : {-1, 101}) {
+    options.flatten = percent;
+    CHECK(fault(samples, options) == ErrorKind::usage);
+  }
+}
+
+TEST_CASE("what flattening makes too bright to be stored is refused", "[pack]") {
+  SampleMap sky = sample("color", Role::color, Depth::f32, 3);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (float& v : sky.image.texel(x, y)) v = x < 32 ? 60000.0f : 1.0f;
+  sky.image.texel(63, 0)[0] = 60000.0f;
+  BakeOptions options = small_options();
+  options.depth = Depth::f16;
+  CHECK_NOTHROW(bake(std::vector{sky}, options));
+  options.flatten = 100;
+  CHECK(fault({sky}, options) == ErrorKind::invalid_content);
+  options.depth = Depth::f32;
+  CHECK_NOTHROW(bake(std::vector{sky}, options));
+}
+
 TEST_CASE("threads do not change a pack, the seed does", "[pack]") {
   const std::vector<SampleMap> samples{sample("color", Role::color, Depth::u8, 3)};
   BakeOptions options = small_options();

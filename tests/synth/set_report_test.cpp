@@ -151,6 +151,18 @@ TEST_CASE("drift and two tones are told from texture", "[sample_nature]") {
       for (float& v : shaded.texel(x, y)) v = 0.1f * v + 0.9f * static_cast<float>(x) / 127.0f;
   CHECK(nature(shaded, {32, 32}).drift > 0.7);
   CHECK(nature(shaded, {128, 128}).drift == 0); // one tile alone says nothing
+  CHECK(nature(shaded, {32, 32}).shading > 0.5);
+  CHECK(nature(shaded, {128, 128}).shading == 0);
+  // Patches of half a tile without order drift by a share, and are no shading, whatever the tile.
+  Image patches(512, 512, 1);
+  for (int y = 0; y < 512; ++y)
+    for (int x = 0; x < 512; ++x)
+      patches.texel(x, y)[0] =
+          static_cast<float>(random_below(9, "patches", y / 32 * 16 + x / 32, 256)) / 255.0f;
+  CHECK(nature(patches, {64, 64}).drift > 0.15);
+  CHECK(nature(patches, {64, 64}).shading < 0.02);
+  CHECK(nature(patches, {32, 32}).drift > 0.9);
+  CHECK(nature(patches, {32, 32}).shading < 0.02);
   Image ink(128, 128, 1, 1.0f);
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x)

@@ -51,8 +51,10 @@ SampleMap noise_sample(int side) {
   return {"color", Role::color, Encoding::srgb, Depth::u8, std::move(image)};
 }
 
-BakedPack small_bake(const std::vector<SampleMap>& samples, const std::string& coloring) {
+BakedPack small_bake(const std::vector<SampleMap>& samples, const std::string& coloring,
+                     const std::string& flatten = "0") {
   const std::vector<BakeSetting> settings{{"coloring", coloring, "test", ErrorKind::usage},
+                                          {"flatten", flatten, "test", ErrorKind::usage},
                                           {"tile-size", "16", "test", ErrorKind::usage},
                                           {"effort", "0", "test", ErrorKind::usage},
                                           {"virtual-size", "8", "test", ErrorKind::usage}};
@@ -132,8 +134,23 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     CHECK(says(facts, Grade::poor, "--tile-size 40"));
   }
   SECTION("slow shading") {
+    facts.nature.shading = 0.01;
+    CHECK(bake_verdict(facts).grade == Grade::good);
+    facts.nature.shading = 0.03;
+    facts.flat_drift = 0.004;
+    CHECK(says(facts, Grade::fair, "5.0 % of the sample's variance"));
+    CHECK(says(facts, Grade::fair, "Bake with --flatten 100, which leaves 0.4 %"));
+    facts.flatten = 50;
+    CHECK(says(facts, Grade::fair, "--flatten 100"));
+    facts.flatten = 100; // more of the same is no cure
+    CHECK(says(facts, Grade::fair, "Use a larger --tile-size"));
+    CHECK_FALSE(says(facts, Grade::fair, "--flatten"));
+    facts.flatten = 0;
+    facts.flat_drift = 0.049; // nor is what changes nothing
+    CHECK_FALSE(says(facts, Grade::fair, "--flatten"));
+    facts.nature.shading = 0;
     facts.nature.drift = 0.6;
-    CHECK(says(facts, Grade::poor, "Flatten the sample"));
+    CHECK(says(facts, Grade::poor, "--flatten 100"));
   }
   SECTION("writing") {
     facts.nature.two_tone = 0.95;
@@ -220,6 +237,26 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
   for (std::size_t i = 1; i < verdict.remarks.size(); ++i) // the worst first
     CHECK(verdict.remarks[i - 1].grade >= verdict.remarks[i].grade);
   CHECK(verdict.grade == verdict.remarks.front().grade);
+}
+
+TEST_CASE("flattening is advised where it helps", "[bake_verdict]") {
+  std::vector<SampleMap> samples{noise_sample(128)};
+  CHECK(bake_facts(small_bake(samples, "corner"), samples).flat_drift == 0); // not looked for
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x)
+      for (float& v : samples[0].image.texel(x, y)) v *= 0.2f + 0.8f * static_cast<float>(x) / 127.0f;
+  const BakeFacts shaded = bake_facts(small_bake(samples, "corner"), samples);
+  CHECK(shaded.nature.drift > 0.15);
+  CHECK(shaded.flat_drift < 0.02);
+  CHECK(says(shaded, Grade::fair, "--flatten 100"));
+  const BakedPack made = small_bake(samples, "corner", "100");
+  const BakeFacts flat = bake_facts(made, samples);
+  CHECK(flat.nature.drift == Approx(shaded.flat_drift));
+  CHECK_FALSE(says(flat, Grade::fair, "variance"));
+  CHECK(bake_page({"s.png", flat, {}}, made, samples).find(", flattened by 100 %") != std::string::npos);
+  samples[0].role = Role::data; // which is never flattened
+  const BakeFacts data = bake_facts(small_bake(samples, "corner"), samples);
+  CHECK(says(data, Grade::fair, "Use a larger --tile-size"));
 }
 
 TEST_CASE("pictures show tiles, uses and sources where they are", "[bake_pictures]") {
