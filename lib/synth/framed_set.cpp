@@ -142,14 +142,14 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
     int starts, candidates, spots, tries, passes, sweeps;
   };
   static constexpr std::array<Row, 10> rows{{{1, 6, 0, 0, 0, 0},
-                                             {1, 8, 0, 0, 1, 2},
-                                             {1, 8, 2, 1, 2, 2},
-                                             {2, 12, 3, 1, 2, 3},
-                                             {2, 12, 4, 2, 2, 4},
-                                             {3, 12, 4, 2, 3, 4},
-                                             {3, 12, 6, 2, 5, 6},
-                                             {3, 12, 8, 2, 7, 8},
-                                             {3, 12, 8, 2, 10, 10},
+                                             {1, 8, 0, 0, 1, 3},
+                                             {1, 8, 2, 1, 2, 3},
+                                             {2, 12, 3, 1, 2, 4},
+                                             {2, 12, 4, 2, 2, 5},
+                                             {3, 12, 4, 2, 3, 6},
+                                             {3, 12, 6, 2, 4, 8},
+                                             {3, 12, 8, 2, 6, 10},
+                                             {3, 12, 8, 2, 10, 12},
                                              {3, 12, 8, 2, 16, 16}}};
   const Row& row = rows[static_cast<std::size_t>(effort)];
   FramedSetSettings settings;

@@ -74,22 +74,29 @@ public:
   }
 
   // Finds a match for each square. `stream` tells passes and canvases apart.
+  //
+  // Sweeps go forward and backward in turn. A neighbour's match was tried in vain two sweeps ago if it has not
+  // changed since, and is not tried again: matches only get better.
   void look_up(std::uint64_t stream) {
     for (const std::size_t i : active)
       distance[i] = priced(match[i], difference(i, match[i], std::numeric_limits<int>::max()));
+    changed.assign(canvas.texels.size(), 0);
     for (int sweep = 0; sweep < options.sweeps; ++sweep) {
       const std::uint64_t trials = random_bits(stream, "polish trials", static_cast<std::uint64_t>(sweep));
       const bool forward = sweep % 2 == 0;
       const int step = forward ? 1 : -1;
+      const auto news = [&](std::size_t n) { return match[n] != inactive && changed[n] >= sweep - 1; };
       for (std::size_t n = 0; n < active.size(); ++n) {
         const std::size_t i = forward ? active[n] : active[active.size() - 1 - n];
         if (distance[i] == 0) continue;
-        const SourceTexel beside = match[i - static_cast<std::size_t>(step)];
-        const SourceTexel above = match[i - static_cast<std::size_t>(step * canvas.width)];
-        if (beside != inactive) try_match(i, inside(image, {beside.x + step, beside.y}));
-        if (above != inactive) try_match(i, inside(image, {above.x, above.y + step}));
+        const SourceTexel before = match[i];
+        const std::size_t beside = i - static_cast<std::size_t>(step);
+        const std::size_t above = i - static_cast<std::size_t>(step * canvas.width);
+        if (news(beside)) try_match(i, inside(image, {match[beside].x + step, match[beside].y}));
+        if (news(above)) try_match(i, inside(image, {match[above].x, match[above].y + step}));
         std::uint64_t bits = mixed(trials + i);
-        for (int radius = std::max(image.width, image.height); radius >= 1; radius /= 4) {
+        // Anywhere, near and beside: trials are cheap only as long as there are few.
+        for (int radius = std::max(image.width, image.height); radius >= 1; radius /= 16) {
           const auto offset = [&](std::uint64_t word) {
             return static_cast<int>((word * static_cast<std::uint64_t>(2 * radius + 1)) >> 32) - radius;
           };
@@ -97,6 +104,7 @@ public:
           try_match(i, inside(image, {at.x + offset(bits & 0xffffffffu), at.y + offset(bits >> 32)}));
           bits = mixed(bits + 0x9e3779b97f4a7c15u);
         }
+        if (match[i] != before) changed[i] = sweep;
       }
     }
   }
@@ -204,6 +212,7 @@ private:
   std::vector<std::size_t> active; // middles of squares, row by row
   std::vector<std::uint8_t> shown; // what the canvas shows
   std::vector<int> distance;       // of each square to its match
+  std::vector<int> changed;        // the last sweep that changed it
 };
 
 // By how often the canvases show the surroundings of a texel.
