@@ -27,8 +27,8 @@ struct Candidate {
 class CandidateList {
 public:
   CandidateList(const FeatureImage& feature_image, const FrameSearchOptions& search_options)
-      : image(feature_image), options(search_options),
-        mean(channel_means({0, 0}, image.width, image.height)) {}
+      : image(feature_image), options(search_options), mean(channel_means({0, 0}, image.width, image.height)),
+        usual_step{mean_step(image, Direction::horizontal), mean_step(image, Direction::vertical)} {}
 
   std::vector<Candidate> best(const PositionMap& map, const StripSpace& space, int depth) const {
     std::vector<std::size_t> order(map.values.size());
@@ -51,7 +51,7 @@ public:
       apart.push_back({at, static_cast<double>(map.values[order[i]]) / depth + unevenness(at, space)});
     }
     // Corner patches, the same for all candidates, are left out of it.
-    const double usual = std::max(mean_step(image, space.direction), 1e-3);
+    const double usual = std::max(usual_step[space.direction == Direction::horizontal ? 0 : 1], 1e-3);
     for (Candidate& c : apart) {
       const double excess = step_across(image, space, c.place) / usual - 1.0;
       c.misfit *= 1.0 + options.calmness * excess * excess;
@@ -86,6 +86,7 @@ private:
   const FeatureImage& image;
   const FrameSearchOptions& options;
   std::vector<double> mean;
+  std::array<double, 2> usual_step; // across horizontal edges, across vertical ones
 };
 
 // Positions of a tile's inside that are tried: every stride-th, so that their number is bounded.

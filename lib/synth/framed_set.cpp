@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace tilepack {
 namespace {
@@ -157,6 +158,7 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   settings.frame.starts = row.starts;
   settings.frame.candidates = row.candidates;
   settings.interiors.seed = seed;
+  if (effort == 0) settings.interiors.rounds = 2;
   settings.mend.spots = row.spots;
   settings.mend.tries = row.tries;
   settings.polish.seed = seed;
@@ -179,8 +181,11 @@ SourceMap framed_set(FeatureImage sample, const Periodicity& periods, const Synt
   const std::vector<FeatureImage> pyramid =
       pyramid_down_to(std::move(sample), shape.tile, settings.smallest_search_tile);
   const FeatureImage& image = pyramid.front();
-  const SampleStatistics statistics(image);
-  const PatchSearch search(pyramid.back());
+  std::optional<SampleStatistics> counted;
+  std::optional<PatchSearch> prepared;
+  tbb::parallel_invoke([&] { counted.emplace(image); }, [&] { prepared.emplace(pyramid.back()); });
+  const SampleStatistics& statistics = *counted;
+  const PatchSearch& search = *prepared;
   const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
   Frame frame = joined_frame(image, shape, plan);
   tbb::parallel_invoke(

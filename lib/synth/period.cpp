@@ -280,6 +280,13 @@ Periodicity detect_periods(std::span<const SampleMap> samples) {
   return {strongest_period(columns, shrink_of(image)), strongest_period(rows, shrink_of(image))};
 }
 
+int whole_periods(const Period& period, int side) {
+  if (period.length <= 0) return 0;
+  const double count = std::max(1.0, std::round(side / period.length));
+  const double off = std::abs(side - count * period.length);
+  return off <= std::max(0.75, 0.02 * period.length) ? static_cast<int>(count) : 0;
+}
+
 TileSizeAdvice fitting_tile_size(const Periodicity& periodicity, Size wanted, Size sample) {
   const Side x = fitting_side(periodicity.x, wanted.width, sample.width);
   const Side y = fitting_side(periodicity.y, wanted.height, sample.height);

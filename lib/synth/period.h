@@ -28,6 +28,10 @@ struct Periodicity {
 /// no period.
 Periodicity detect_periods(std::span<const SampleMap> samples);
 
+/// How many whole periods a tile's side of `side` texels holds, to within 0.75 texels or 2 % of the period; 0
+/// if the number is not whole, or there is no period.
+int whole_periods(const Period& period, int side);
+
 /// What tile size fits a sample, and why.
 struct TileSizeAdvice {
   Size size;          ///< each side a whole number of periods where there is one, rounded to whole texels

@@ -6,16 +6,14 @@
 namespace tilepack {
 namespace {
 
-double whole_period(const Period& period, int side) {
-  if (period.length <= 0.0) return 0.0;
-  const double off = side - std::max(1.0, std::round(side / period.length)) * period.length;
-  return std::abs(off) <= std::max(1.0, 0.03 * period.length) ? period.length : 0.0;
+double kept(const Period& period, int side) {
+  return whole_periods(period, side) > 0 ? period.length : 0.0;
 }
 
 } // namespace
 
 Phase::Phase(const Periodicity& periodicity, Size tile)
-    : x{whole_period(periodicity.x, tile.width), 0.0}, y{whole_period(periodicity.y, tile.height), 0.0} {}
+    : x{kept(periodicity.x, tile.width), 0.0}, y{kept(periodicity.y, tile.height), 0.0} {}
 
 Phase Phase::through(SourceTexel texel) const {
   Phase moved = *this;

@@ -17,8 +17,8 @@ public:
   /// Nothing repeats: everything is in step.
   Phase() = default;
 
-  /// Along an axis of `periodicity` with a period of which `tile` holds a whole number, to within 3 % of the
-  /// period or a texel: all parts in step with one that puts texel (0, 0) at a tile's north-west texel.
+  /// Along an axis with a period of which `tile` holds a whole number (whole_periods): all parts in step with
+  /// one that puts texel (0, 0) at a tile's north-west texel.
   Phase(const Periodicity& periodicity, Size tile);
 
   /// The same, but in step with a part that puts `texel` there.

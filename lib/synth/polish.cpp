@@ -75,8 +75,8 @@ public:
 
   // Finds a match for each square. `stream` tells passes and canvases apart.
   //
-  // Sweeps go forward and backward in turn. A neighbour's match was tried in vain two sweeps ago if it has not
-  // changed since, and is not tried again: matches only get better.
+  // Sweeps go forward and backward in turn. A neighbour's match was tried in vain two sweeps ago if it has
+  // not changed since, and is not tried again: matches only get better.
   void look_up(std::uint64_t stream) {
     for (const std::size_t i : active)
       distance[i] = priced(match[i], difference(i, match[i], std::numeric_limits<int>::max()));

@@ -6,6 +6,7 @@
 #include "tilepack/synth/quilt.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <string>
 
@@ -70,10 +71,14 @@ SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& opt
                      const Progress& progress) {
   require_valid(options);
   require_fitting(samples, options);
-  FeatureImage image = feature_image(samples);
-  if (options.interior == Interior::patch)
-    return framed_set(std::move(image), detect_periods(samples), options,
-                      settings_for(options.effort, options.seed), progress);
+  if (options.interior == Interior::patch) {
+    FeatureImage image;
+    Periodicity periods;
+    tbb::parallel_invoke([&] { image = feature_image(samples); }, [&] { periods = detect_periods(samples); });
+    return framed_set(std::move(image), periods, options, settings_for(options.effort, options.seed),
+                      progress);
+  }
+  const FeatureImage image = feature_image(samples);
   return quilted(image, options, chosen_edge_patches(image, options, progress));
 }
 

@@ -69,11 +69,11 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
   const auto judge = [&](const Period& period, int side, int fitting, const char* axis) {
     if (period.length <= 0) return;
     const double off = misfit(period, side);
-    if (off <= std::max(0.75, 0.02 * period.length)) {
+    if (const int count = whole_periods(period, side); count > 0) {
       add(remarks, Grade::good,
           fmt::format("The sample repeats every {:.2f} texels along {}, and a tile "
-                      "holds {:.0f} of them.",
-                      period.length, axis, std::round(side / period.length)));
+                      "holds {} of them: they run on.",
+                      period.length, axis, count));
       return;
     }
     const Grade grade = off > 0.1 * period.length && mean_cut(facts) > dear_mean ? Grade::poor : Grade::fair;

@@ -248,7 +248,7 @@ int main(int argc, char** argv) {
   const int colors = argc > 1 ? std::atoi(argv[1]) : 2;
   const int sweeps = argc > 2 ? std::atoi(argv[2]) : 3000;
   Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1,
-                {{8, 2, 4, 4.0, 0.4}, {16, 4, 8, 1.0, 0.1}});
+                {{8, 2, 4, 4.0, 0.4}, {16, 4, 8, 4.0, 0.4}});
   search.run(sweeps, 0.3);
   search.print();
 }

@@ -80,3 +80,17 @@ TEST_CASE("a fitting tile never outgrows half the sample, and says when no perio
   CHECK(advice.periods == Size{0, 0});
   CHECK(advice.reason.find("no allowed side") != std::string::npos);
 }
+
+TEST_CASE("a side holds whole periods to within a few hundredths or less than a texel") {
+  const auto count = [](double period, int side) { return whole_periods({period, 1.0}, side); };
+  CHECK(count(32.0, 128) == 4);
+  CHECK(count(42.69, 128) == 3);
+  CHECK(count(85.34, 86) == 1);
+  CHECK(count(85.34, 84) == 1);
+  CHECK(count(85.34, 88) == 0);
+  CHECK(count(18.84, 132) == 7);
+  CHECK(count(18.84, 131) == 0);
+  CHECK(count(20.0, 128) == 0);
+  CHECK(count(200.0, 128) == 0);
+  CHECK(count(0.0, 128) == 0);
+}
