@@ -80,7 +80,7 @@ std::string JsonCursor::shown() const {
   const json& value = value_at(node);
   if (value.is_structured()) return kind_of(value);
   std::string text = value.dump(-1, ' ', true);
-  if (text.size() > longest_shown) text = text.substr(0, longest_shown) + "…";
+  if (text.size() > longest_shown) text = text.substr(0, longest_shown) + (value.is_string() ? "…\"" : "…");
   return text;
 }
 

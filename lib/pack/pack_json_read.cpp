@@ -295,7 +295,7 @@ std::vector<int> read_pattern(const JsonCursor& value, const ColorCounts& colors
     const std::string digits = value.item(row).text();
     const auto legal = [&](char digit) { return digit >= '0' && digit < '0' + colors.corner; };
     if (digits.size() != even_pattern_side || !std::all_of(digits.begin(), digits.end(), legal))
-      value.item(row).fail(fmt::format("{}; a row is {} digits of 0 to {}, one a corner",
+      value.item(row).fail(fmt::format("{}; a row is {} digits of 0 to {}, one a corner; bake the pack again",
                                        value.item(row).shown(), even_pattern_side, colors.corner - 1));
     for (const char digit : digits) pattern.push_back(digit - '0');
   }
