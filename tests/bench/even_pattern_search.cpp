@@ -1,6 +1,6 @@
 // Searches for the patterns of lib/mapping/even_pattern.cpp and prints one as C++.
 //
-//   even_pattern_search [COLORS [SWEEPS [SEED]]]      the patterns: 3000 sweeps, up to an hour
+//   even_pattern_search [COLORS [SWEEPS [SEED]]]      3000 sweeps take some minutes
 //
 // A pattern is a torus of corner colors. Wherever one looks at it through a window of 8 x 8 or 16 x 16 tiles,
 // all tiles should be shown equally often and no displacement should bring many tiles onto equal ones. One
