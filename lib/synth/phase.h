@@ -30,10 +30,12 @@ public:
   bool free() const { return x.period <= 0.0 && y.period <= 0.0; }
 
   /// Whether a part that puts `texel` at a tile's north-west texel is in step: within half a step of a search
-  /// that tries every `step`-th texel, and what courses waver by in any case, a texel or a sixty-fourth of the period.
+  /// that tries every `step`-th texel, and in any case within a texel or a sixty-fourth of the period, by
+  /// which courses waver.
   bool allows(SourceTexel texel, int step) const;
 
-  /// The texel nearest to `texel` that is exactly in step, to rounding; of those within `low`..`high`, if any.
+  /// The texel nearest to `texel` that is exactly in step, to rounding; of those within `low`..`high`, if
+  /// any.
   SourceTexel nearest(SourceTexel texel, SourceTexel low, SourceTexel high) const;
 
 private:

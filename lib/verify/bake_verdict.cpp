@@ -72,7 +72,7 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
     if (const int count = whole_periods(period, side); count > 0) {
       add(remarks, Grade::good,
           fmt::format("The sample repeats every {:.2f} texels along {}, and a tile "
-                      "holds {} of them: they run on.",
+                      "holds {} of them.",
                       period.length, axis, count));
       return;
     }

@@ -1,11 +1,8 @@
-#include "tilepack/synth/phase.h"
-
 #include "samples.h"
 
-#include "tilepack/synth/synthesize.h"
+#include "tilepack/synth/phase.h"
 
 #include <catch2/catch.hpp>
-
 #include <set>
 
 using namespace tilepack;
@@ -84,12 +81,7 @@ TEST_CASE("of a map of positions some in every period stay, all of them in step"
 TEST_CASE("the lines of a sample run on through tiles that hold whole periods") {
   const SampleMap map = testing::color_map(cells(320, 256));
   for (const Coloring coloring : {Coloring::edge, Coloring::corner}) {
-    SynthOptions options;
-    options.tile_size = {60, 64};
-    options.coloring = coloring;
-    options.colors = coloring == Coloring::edge ? ColorCounts{2, 2, 0} : ColorCounts{0, 0, 2};
-    options.effort = 3;
-    const SourceMap made = synthesize(std::span(&map, 1), options);
+    const SourceMap made = synthesize(std::span(&map, 1), testing::two_colors({60, 64}, coloring, 3));
     // Where the first tile has its lines all others have theirs.
     const auto is_line = [&](std::size_t id, int x, int y) {
       const SourceTexel s = made.texels[id][static_cast<std::size_t>(y * 60 + x)];

@@ -2,6 +2,7 @@
 
 #include "tilepack/synth/feature_image.h"
 #include "tilepack/synth/source_map.h"
+#include "tilepack/synth/synthesize.h"
 #include "tilepack/tileset/random.h"
 
 #include <cmath>
@@ -28,6 +29,16 @@ inline Image blobs(int width, int height, std::uint64_t seed = 1, int channels =
   // Spread to the whole range, so that differences are large.
   for (float& v : image.data()) v = std::min(1.0f, std::max(0.0f, (v - 0.5f) * 5.0f + 0.5f));
   return image;
+}
+
+/// Two colors of edges in each direction, or of corners.
+inline SynthOptions two_colors(Size tile, Coloring coloring, int effort) {
+  SynthOptions options;
+  options.tile_size = tile;
+  options.coloring = coloring;
+  options.colors = coloring == Coloring::edge ? ColorCounts{2, 2, 0} : ColorCounts{0, 0, 2};
+  options.effort = effort;
+  return options;
 }
 
 inline SampleMap color_map(Image image) {

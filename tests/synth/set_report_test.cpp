@@ -90,12 +90,7 @@ TEST_CASE("the figures add up to what synthesis counts", "[set_report]") {
   const SampleMap maps[] = {color_map(blobs(96, 96))};
   const FeatureImage image = feature_image(maps);
   for (const Coloring coloring : {Coloring::edge, Coloring::corner}) {
-    SynthOptions options;
-    options.tile_size = {32, 32};
-    options.coloring = coloring;
-    options.colors = coloring == Coloring::edge ? ColorCounts{2, 2, 0} : ColorCounts{0, 0, 2};
-    options.effort = 0;
-    const SourceMap sources = synthesize(maps, options);
+    const SourceMap sources = synthesize(maps, testing::two_colors({32, 32}, coloring, 0));
     const SetReport report = set_report(image, sources);
     double energy = 0;
     for (int tile = 0; tile < 16; ++tile) {
