@@ -3,12 +3,12 @@
 #include "tilepack/error/error.h"
 #include "tilepack/pack/bake_fields.h"
 #include "tilepack/pack/file_name.h"
-#include "tilepack/synth/feature_image.h"
 #include "tilepack/synth/flatten.h"
 #include "tilepack/synth/period.h"
 #include "tilepack/tileset/sequential_set.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,9 +138,11 @@ Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const 
 BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress) {
   check_samples(samples, options);
   SynthOptions synth = options.synth;
-  if (options.fit_tile_size)
-    synth.tile_size =
-        fitting_tile_size(detect_periods(samples), synth.tile_size, samples[0].image.size()).size;
+  std::optional<Periodicity> periods;
+  if (options.fit_tile_size) {
+    periods = detect_periods(samples);
+    synth.tile_size = fitting_tile_size(*periods, synth.tile_size, samples[0].image.size()).size;
+  }
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);
   check_packing(options, wanted, synth.tile_size); // before the long stage
@@ -153,11 +155,16 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
     report(progress, "flattening", 0.0);
     result.flattened = flattened_maps(samples, options, synth.tile_size);
     samples = result.flattened;
+    periods.reset();
   }
-  result.sources = subset(synthesize(samples, synth, progress), wanted);
+  result.sample = studied(samples, periods);
+  result.sources = subset(synthesize(result.sample, synth, progress), wanted);
   report(progress, "figures", 0.0);
-  result.report = set_report(feature_image(samples), result.sources);
-  result.pack = packed(assembled(result.sources, samples), options, options.synth.seed, progress);
+  tbb::parallel_invoke(
+      [&] { result.report = set_report(result.sample.features, result.sample.statistics, result.sources); },
+      [&] {
+        result.pack = packed(assembled(result.sources, samples), options, options.synth.seed, progress);
+      });
   result.pack.generator.version = TILEPACK_VERSION;
   result.pack.generator.options = recorded_options(options);
   result.pack.generator.seed = options.synth.seed;

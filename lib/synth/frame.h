@@ -50,7 +50,7 @@ FrameShape halved(const FrameShape& shape, int times);
 
 /// Where the frame's parts are taken from.
 struct FramePlan {
-  Phase phase; ///< all parts are in step with the first corner patch
+  Phase phase;                      ///< all parts are in step with the first corner patch
   std::vector<SourceTexel> corners; ///< the texel south-east of the lattice point
   std::vector<SourceTexel>
       horizontal; ///< north-west texel of a window of tile.width × 2 reach, edge in the middle

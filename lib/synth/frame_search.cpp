@@ -3,7 +3,6 @@
 #include "tilepack/synth/border_step.h"
 #include "tilepack/synth/byte_rows.h"
 #include "tilepack/synth/frame_refine.h"
-#include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/strip_space.h"
 #include "tilepack/tileset/random.h"
 
@@ -434,12 +433,11 @@ private:
 
 } // namespace
 
-FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleStatistics& statistics,
-                         const FrameShape& shape, const FrameSearchOptions& options,
-                         const Progress& progress) {
+FramePlan searched_frame(const FeaturePyramid& pyramid, const PatchSearch& search,
+                         const SampleStatistics& statistics, const FrameShape& shape,
+                         const FrameSearchOptions& options, const Progress& progress) {
   const int levels = static_cast<int>(pyramid.size());
   const FrameShape small = halved(shape, levels - 1);
-  const PatchSearch search(pyramid.back());
   report(progress, "frame search", 0.0);
   const FeatureImage plain = with_slack(pyramid.back());
   const FeatureImage turned = with_slack(transposed(pyramid.back()));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
+#include "tilepack/synth/feature_pyramid.h"
 #include "tilepack/synth/frame.h"
+#include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/statistics.h"
 
 #include <vector>
@@ -21,15 +23,15 @@ struct FrameSearchOptions {
 
 /// Chooses the whole frame together.
 ///
-/// `pyramid[0]` is the image, each further level half the one before; the choice is made in the last level
-/// and brought to the first. For each start the strips' best places by their fit to the corner patches are
-/// listed; then one strip after another takes the place that makes the sum over all tiles least of
+/// The choice is made in the last level of `pyramid`, which `search` searches, and brought to the first. For
+/// each start the strips' best places by their fit to the corner patches are listed; then one strip after
+/// another takes the place that makes the sum over all tiles least of
 ///   the misfit of its ends, and
 ///   the misfit of the best inside that a tile with these four strips could get.
 /// The second is a sum of four maps, one a side, over positions of the inside, so that trying another place
 /// for a strip costs two maps and a few additions.
-FramePlan searched_frame(const std::vector<FeatureImage>& pyramid, const SampleStatistics& statistics,
-                         const FrameShape& shape, const FrameSearchOptions& options,
-                         const Progress& progress = {});
+FramePlan searched_frame(const FeaturePyramid& pyramid, const PatchSearch& search,
+                         const SampleStatistics& statistics, const FrameShape& shape,
+                         const FrameSearchOptions& options, const Progress& progress = {});
 
 } // namespace tilepack

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 namespace tilepack {
 namespace {
@@ -18,17 +17,16 @@ namespace {
 // Above this many texels a search would take more memory than the sample itself.
 constexpr std::int64_t most_searched_texels = 150'000;
 
-// The image halved again and again while its tiles stay at least `smallest_tile` texels wide, and further if
-// it is too large to be searched.
-std::vector<FeatureImage> pyramid_down_to(FeatureImage image, Size tile, int smallest_tile) {
-  std::vector<FeatureImage> levels;
-  levels.push_back(std::move(image));
+// Halved again and again while its tiles stay at least `smallest_tile` texels wide, and further if it is too
+// large to be searched.
+FeaturePyramid pyramid_down_to(const FeatureImage& image, Size tile, int smallest_tile) {
+  FeaturePyramid levels(image);
   int side = std::min(tile.width, tile.height);
   const auto too_large = [&] {
     return static_cast<std::int64_t>(levels.back().width) * levels.back().height > most_searched_texels;
   };
   while (side / 2 >= smallest_tile || (too_large() && side / 2 >= 4)) {
-    levels.push_back(halved(levels.back()));
+    levels.add_half();
     side /= 2;
   }
   return levels;
@@ -94,7 +92,7 @@ std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
 }
 
 // At half size and then at full size.
-void polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std::uint8_t>& fixed, Rect shown,
+void polish_both(const FeaturePyramid& pyramid, const std::vector<std::uint8_t>& fixed, Rect shown,
                  const PolishOptions& coarse, const PolishOptions& fine,
                  std::vector<SourceCanvas>& canvases) {
   if (pyramid.size() > 1) polish(pyramid[1], 2, fixed, shown, coarse, canvases);
@@ -103,7 +101,7 @@ void polish_both(const std::vector<FeatureImage>& pyramid, const std::vector<std
 
 // Strips are mended before tiles are made of them, so that what crosses an edge is mended on both its sides.
 // The squares at the lattice points, which all strips there share, stay.
-void mend_strips(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const FrameShape& shape,
+void mend_strips(const FeaturePyramid& pyramid, const PatchSearch& search, const FrameShape& shape,
                  const FramePlan& plan, const FramedSetSettings& settings, Direction direction,
                  std::vector<SourceCanvas>& strips) {
   const StripSpace space = space_of(shape, direction);
@@ -175,18 +173,14 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   return settings;
 }
 
-SourceMap framed_set(FeatureImage sample, const Periodicity& periods, const SynthOptions& options,
+SourceMap framed_set(const StudiedSample& sample, const SynthOptions& options,
                      const FramedSetSettings& settings, const Progress& progress) {
-  const FrameShape shape = frame_shape(options, periods, settings.reach, settings.corner_reach);
-  const std::vector<FeatureImage> pyramid =
-      pyramid_down_to(std::move(sample), shape.tile, settings.smallest_search_tile);
-  const FeatureImage& image = pyramid.front();
-  std::optional<SampleStatistics> counted;
-  std::optional<PatchSearch> prepared;
-  tbb::parallel_invoke([&] { counted.emplace(image); }, [&] { prepared.emplace(pyramid.back()); });
-  const SampleStatistics& statistics = *counted;
-  const PatchSearch& search = *prepared;
-  const FramePlan plan = searched_frame(pyramid, statistics, shape, settings.frame, progress);
+  const FeatureImage& image = sample.features;
+  const SampleStatistics& statistics = sample.statistics;
+  const FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
+  const FeaturePyramid pyramid = pyramid_down_to(image, shape.tile, settings.smallest_search_tile);
+  const PatchSearch search(pyramid.back());
+  const FramePlan plan = searched_frame(pyramid, search, statistics, shape, settings.frame, progress);
   Frame frame = joined_frame(image, shape, plan);
   tbb::parallel_invoke(
       [&] { mend_strips(pyramid, search, shape, plan, settings, Direction::horizontal, frame.horizontal); },

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
-#include "tilepack/synth/feature_image.h"
 #include "tilepack/synth/frame_search.h"
 #include "tilepack/synth/interiors.h"
 #include "tilepack/synth/mend.h"
 #include "tilepack/synth/polish.h"
+#include "tilepack/synth/studied_sample.h"
 #include "tilepack/synth/synthesize.h"
 
 namespace tilepack {
@@ -28,8 +28,8 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed);
 
 /// Interior::patch: chooses a frame, gives every tile its own inside, joins them by cuts, and mends what is
 /// worst. Both colorings; see FrameShape for the construction.
-/// `periods`: of the sample; where tiles hold whole periods, all parts are kept in step with them.
-SourceMap framed_set(FeatureImage sample, const Periodicity& periods, const SynthOptions& options,
+/// Where tiles hold whole periods of the sample, all parts are kept in step with them.
+SourceMap framed_set(const StudiedSample& sample, const SynthOptions& options,
                      const FramedSetSettings& settings, const Progress& progress = {});
 
 } // namespace tilepack

@@ -156,7 +156,7 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
   return tiles;
 }
 
-std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyramid, const PatchSearch& search,
+std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
                                           const SampleStatistics& statistics, const FrameShape& shape,
                                           const FramePlan& plan, const std::vector<SourceCanvas>& framed,
                                           const InteriorOptions& options, const Progress& progress) {

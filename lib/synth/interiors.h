@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
+#include "tilepack/synth/feature_pyramid.h"
 #include "tilepack/synth/frame.h"
 #include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/statistics.h"
@@ -32,7 +33,7 @@ struct InteriorOptions {
 /// at each tile's north-west texel; the whole tile lies inside the sample.
 ///
 /// `search` searches the last level of `pyramid`; its finds are refined in the others.
-std::vector<SourceTexel> chosen_interiors(const std::vector<FeatureImage>& pyramid, const PatchSearch& search,
+std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
                                           const SampleStatistics& statistics, const FrameShape& shape,
                                           const FramePlan& plan, const std::vector<SourceCanvas>& framed,
                                           const InteriorOptions& options, const Progress& progress = {});

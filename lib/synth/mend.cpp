@@ -125,7 +125,7 @@ void favour_fresh(PositionMap& map, const Usage& usage, Size window, double fres
 
 } // namespace
 
-void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const Usage& usage,
+void mend_spots(const FeaturePyramid& pyramid, const PatchSearch& search, const Usage& usage,
                 const Phase& phase, const std::vector<std::uint8_t>& fixed, const MendOptions& options,
                 SourceCanvas& canvas) {
   const FeatureImage& image = pyramid.front();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/synth/feature_pyramid.h"
 #include "tilepack/synth/patch_search.h"
 #include "tilepack/synth/phase.h"
 #include "tilepack/synth/source_canvas.h"
@@ -23,7 +24,7 @@ struct MendOptions {
 /// `pyramid[0]` is the sample; `search` searches the last level. `fixed`: texels that must stay, 1 each.
 /// `phase`: what must be kept in step with the sample, seen from the canvas's north-west texel.
 /// `usage`: what the set shows of the last level, prepared; of one that counts nothing any window is fresh.
-void mend_spots(const std::vector<FeatureImage>& pyramid, const PatchSearch& search, const Usage& usage,
+void mend_spots(const FeaturePyramid& pyramid, const PatchSearch& search, const Usage& usage,
                 const Phase& phase, const std::vector<std::uint8_t>& fixed, const MendOptions& options,
                 SourceCanvas& canvas);
 

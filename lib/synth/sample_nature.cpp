@@ -90,11 +90,11 @@ Tones tones_of(const FeatureImage& image, int channels) {
 
 } // namespace
 
-SampleNature sample_nature(std::span<const SampleMap> samples, const FeatureImage& image, Size tile) {
+SampleNature sample_nature(const FeatureImage& image, const Periodicity& periods, Size tile) {
   const int channels = std::min(image.channels, 3);
   const Tones tones = tones_of(image, channels);
-  return {detect_periods(samples), drift_of(image, tile, channels), shading_of(image, tile, channels),
-          tones.explained, tones.smaller};
+  return {periods, drift_of(image, tile, channels), shading_of(image, tile, channels), tones.explained,
+          tones.smaller};
 }
 
 } // namespace tilepack

@@ -22,7 +22,7 @@ struct SampleNature {
   double ink = 0; ///< share of texels in the smaller of the two groups
 };
 
-/// `image` holds the maps of `samples`. Deterministic; costs about as much as reading the sample.
-SampleNature sample_nature(std::span<const SampleMap> samples, const FeatureImage& image, Size tile);
+/// `periods` are handed on. Deterministic; costs less than reading the sample.
+SampleNature sample_nature(const FeatureImage& image, const Periodicity& periods, Size tile);
 
 } // namespace tilepack

@@ -1,7 +1,6 @@
 #include "tilepack/synth/set_report.h"
 
 #include "tilepack/synth/source_canvas.h"
-#include "tilepack/synth/statistics.h"
 #include "tilepack/tileset/border_colors.h"
 
 #include <tbb/parallel_for.h>
@@ -169,9 +168,9 @@ double mean_across_borders(const FeatureImage& image, const SourceMap& sources) 
 }
 
 // In blocks of 4 x 4 texels, about what SampleStatistics resolves.
-double distance_of(const FeatureImage& image, const std::vector<int>& uses) {
+double distance_of(const FeatureImage& image, const SampleStatistics& statistics,
+                   const std::vector<int>& uses) {
   constexpr int block = 4;
-  const SampleStatistics statistics(image);
   SampleStatistics::Tally tally = statistics.empty();
   for (int y = 0; y < image.height; y += block)
     for (int x = 0; x < image.width; x += block) {
@@ -297,7 +296,8 @@ std::vector<int> pieces_of_tile(const SourceMap& sources, int tile) {
   return piece;
 }
 
-SetReport set_report(const FeatureImage& image, const SourceMap& sources) {
+SetReport set_report(const FeatureImage& image, const SampleStatistics& statistics,
+                     const SourceMap& sources) {
   const Size sample{image.width, image.height};
   const std::size_t tiles = sources.texels.size();
   const double tile_texels =
@@ -346,7 +346,7 @@ SetReport set_report(const FeatureImage& image, const SourceMap& sources) {
   for (const int n : uses) squares += static_cast<double>(n) * n;
   f.distinct_tiles = rounded(tile_texels * tile_number * tile_number / squares);
   f.coverage = rounded(coverage_of(uses, sample));
-  f.histogram_distance = rounded(distance_of(image, uses));
+  f.histogram_distance = rounded(distance_of(image, statistics, uses));
   report.landmark = landmark_of(image, showing, tiles);
   return report;
 }

@@ -2,6 +2,7 @@
 
 #include "tilepack/synth/feature_image.h"
 #include "tilepack/synth/source_map.h"
+#include "tilepack/synth/statistics.h"
 
 #include <array>
 #include <cstdint>
@@ -75,8 +76,8 @@ struct SetReport {
   Landmark landmark;              ///< deviation 0 if nothing stands out and is shown
 };
 
-/// `image` holds the sample's maps, as synthesis saw them.
-SetReport set_report(const FeatureImage& image, const SourceMap& sources);
+/// `image` and its `statistics`: the sample as synthesis saw it.
+SetReport set_report(const FeatureImage& image, const SampleStatistics& statistics, const SourceMap& sources);
 
 /// One texel of cut, for drawing.
 struct Cut {

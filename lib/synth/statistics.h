@@ -13,6 +13,8 @@ namespace tilepack {
 /// the local contrast, each taken at 15 thresholds that split the sample's texels into 16 equal parts.
 class SampleStatistics {
 public:
+  SampleStatistics() = default; ///< of nothing, to be assigned to
+
   /// Works at the first level of half size, half of that, … that has at most `most_texels` texels.
   explicit SampleStatistics(const FeatureImage& image, int most_texels = 40'000);
 

@@ -1,12 +1,10 @@
 #include "tilepack/synth/synthesize.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/synth/feature_image.h"
 #include "tilepack/synth/framed_set.h"
 #include "tilepack/synth/quilt.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_invoke.h>
 
 #include <string>
 
@@ -44,7 +42,7 @@ void require_valid(const SynthOptions& options) {
   require_in_range("--effort", options.effort, 0, highest_effort, "5 is the default");
 }
 
-void require_fitting(std::span<const SampleMap> samples, const SynthOptions& options) {
+void require_one_size(std::span<const SampleMap> samples) {
   if (samples.empty()) throw Error(ErrorKind::usage, "sample", "no map was given; at least one is needed");
   const Size size = samples.front().image.size();
   for (const SampleMap& map : samples)
@@ -53,14 +51,16 @@ void require_fitting(std::span<const SampleMap> samples, const SynthOptions& opt
           ErrorKind::invalid_content, map.name,
           fmt::format("is {} x {} texels, but {} is {} x {}; all maps of a material must have one size",
                       map.image.width(), map.image.height(), samples.front().name, size.width, size.height));
-  const Size tile = options.tile_size;
+}
+
+void require_fitting(const std::string& name, Size size, Size tile) {
   if (size.width >= tile.width && size.height >= tile.height) return;
   const int fits = std::min(size.width, size.height);
   const std::string way_out =
       fits >= smallest_tile
           ? fmt::format("the largest square tile that fits is {}", std::min(fits, largest_tile))
           : fmt::format("no tile fits, since a tile has at least {} texels a side", smallest_tile);
-  throw Error(ErrorKind::invalid_content, samples.front().name,
+  throw Error(ErrorKind::invalid_content, name,
               fmt::format("{} x {} texels are too few for a tile of {} x {}; {}", size.width, size.height,
                           tile.width, tile.height, way_out));
 }
@@ -70,15 +70,17 @@ void require_fitting(std::span<const SampleMap> samples, const SynthOptions& opt
 SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& options,
                      const Progress& progress) {
   require_valid(options);
-  require_fitting(samples, options);
-  if (options.interior == Interior::patch) {
-    FeatureImage image;
-    Periodicity periods;
-    tbb::parallel_invoke([&] { image = feature_image(samples); }, [&] { periods = detect_periods(samples); });
-    return framed_set(std::move(image), periods, options, settings_for(options.effort, options.seed),
-                      progress);
-  }
-  const FeatureImage image = feature_image(samples);
+  require_one_size(samples);
+  require_fitting(samples.front().name, samples.front().image.size(), options.tile_size);
+  return synthesize(studied(samples), options, progress);
+}
+
+SourceMap synthesize(const StudiedSample& sample, const SynthOptions& options, const Progress& progress) {
+  const FeatureImage& image = sample.features;
+  require_valid(options);
+  require_fitting("sample", {image.width, image.height}, options.tile_size);
+  if (options.interior == Interior::patch)
+    return framed_set(sample, options, settings_for(options.effort, options.seed), progress);
   return quilted(image, options, chosen_edge_patches(image, options, progress));
 }
 

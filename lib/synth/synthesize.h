@@ -2,6 +2,7 @@
 
 #include "tilepack/error/progress.h"
 #include "tilepack/synth/source_map.h"
+#include "tilepack/synth/studied_sample.h"
 
 #include <cstdint>
 #include <span>
@@ -33,5 +34,8 @@ struct SynthOptions {
 /// naming the largest tile that would fit. Deterministic: the result depends on samples and options alone.
 SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& options,
                      const Progress& progress = {});
+
+/// The same for maps of one size that were studied before.
+SourceMap synthesize(const StudiedSample& sample, const SynthOptions& options, const Progress& progress = {});
 
 } // namespace tilepack

@@ -189,7 +189,7 @@ std::string bake_page(const BakeStory& story, const BakedPack& made, std::span<c
   page += "</div>\n";
 
   page += "<h2>Cuts</h2>\n";
-  page += figure(rasterised(cut_picture(sample, feature_image(samples), made.sources, report, most_tiles)),
+  page += figure(rasterised(cut_picture(sample, made.sample.features, made.sources, report, most_tiles)),
                  cut_caption(report.figures.sample_step, std::min(facts.tiles, most_tiles), facts.tiles));
 
   page += "<h2>What the tiles show of the sample</h2>\n<div class=\"row\">\n";

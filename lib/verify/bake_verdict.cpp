@@ -259,12 +259,9 @@ void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
 
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) {
   constexpr int worst_borders = 3;
-  const auto nature = [&](std::span<const SampleMap> maps) {
-    return sample_nature(maps, feature_image(maps), made.synth.tile_size);
-  };
   BakeFacts facts{made.report,
                   seam_figures(made.pack, 0, 0, worst_borders),
-                  nature(made.samples_used(samples)),
+                  sample_nature(made.sample.features, made.sample.periods, made.synth.tile_size),
                   made.synth,
                   made.flatten,
                   0.0,
@@ -273,7 +270,7 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
   if (made.flatten < 100 && has_shading(facts.nature)) {
     std::vector<SampleMap> flat;
     for (const SampleMap& map : samples) flat.push_back(flattened(map, 1.0, made.synth.tile_size));
-    facts.flat_drift = nature(flat).drift;
+    facts.flat_drift = sample_nature(feature_image(flat), {}, made.synth.tile_size).drift;
   }
   return facts;
 }

@@ -75,7 +75,7 @@ std::vector<Figure> figures_of(const Subject& subject, const fs::path& folder) {
   options.mips.mode = MipMode::none;
   const BakedPack made = baked(samples, options);
   const quality::Coherence coherence =
-      quality::patch_coherence(feature_image(samples), made.sources, patches, 1);
+      quality::patch_coherence(made.sample.features, made.sources, patches, 1);
   const SetFigures& f = made.report.figures;
   return {{"coherence_p50", coherence.p50},
           {"coherence_p95", coherence.p95},

@@ -184,8 +184,9 @@ Usage unused(const FeatureImage& image) {
 
 TEST_CASE("mending never raises the seam energy, and both mending and polishing leave fixed texels alone") {
   const SampleMap map = testing::color_map(blobs(96, 96));
-  const std::vector<FeatureImage> pyramid{feature_image(std::span(&map, 1)),
-                                          halved(feature_image(std::span(&map, 1)))};
+  const FeatureImage image = feature_image(std::span(&map, 1));
+  FeaturePyramid pyramid(image);
+  pyramid.add_half();
   const PatchSearch search(pyramid.back());
   const SourceCanvas start = with_seam({40, 50});
   std::vector<std::uint8_t> fixed(start.texels.size());
@@ -202,7 +203,8 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
 
 TEST_CASE("mending takes windows that are not shown yet, where they are as like") {
   const SampleMap map = testing::color_map(four_quarters());
-  const std::vector<FeatureImage> pyramid{feature_image(std::span(&map, 1))};
+  const FeatureImage image = feature_image(std::span(&map, 1));
+  const FeaturePyramid pyramid(image);
   const PatchSearch search(pyramid.back());
   Usage usage(128, 128);
   usage.add({0, 0, 128, 64}, 3.0);
