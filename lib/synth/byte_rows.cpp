@@ -30,14 +30,11 @@ public:
 private:
   int sum = 0;
 };
-using NarrowSquareSum = SquareSum;
-using WideSquareSum = SquareSum;
 
 #else
 
-// Vectors of at most `width` bytes. |a - b| fits a byte; widened, it is squared and added in pairs. Sums of
+// |a - b| fits a byte; widened, it is squared and added in pairs. Sums of
 // integers are the same in any order.
-template <std::size_t width>
 class SquareSum {
 public:
   SquareSum() : even(hn::Zero(d32)), odd(hn::Zero(d32)) {}
@@ -54,7 +51,7 @@ public:
   HWY_INLINE int total() const { return hn::GetLane(hn::SumOfLanes(d32, hn::Add(even, odd))); }
 
 private:
-  using D8 = hn::CappedTag<std::uint8_t, width>;
+  using D8 = hn::CappedTag<std::uint8_t, 32>;
   using D16 = hn::Repartition<std::int16_t, D8>;
   using D32 = hn::Repartition<std::int32_t, D8>;
   static constexpr D8 d8{};
@@ -72,14 +69,12 @@ private:
 
   hn::Vec<D32> even, odd; // the widening multiplication wants two
 };
-using NarrowSquareSum = SquareSum<32>;
-using WideSquareSum = SquareSum<64>;
 
 #endif
 
 int difference_of_rows(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
                        std::ptrdiff_t b_stride, std::size_t bytes, int rows, int limit) {
-  NarrowSquareSum sum;
+  SquareSum sum;
   const int first = rows / 2;
   for (int y = 0; y < first; ++y, a += a_stride, b += b_stride) sum.add_row(a, b, bytes);
   if (first > 0) {
@@ -88,29 +83,6 @@ int difference_of_rows(const std::uint8_t* a, std::ptrdiff_t a_stride, const std
   }
   for (int y = first; y < rows; ++y, a += a_stride, b += b_stride) sum.add_row(a, b, bytes);
   return sum.total();
-}
-
-void differences_along(const std::uint8_t* first, std::ptrdiff_t step, std::span<const ByteRun> runs,
-                       std::span<std::int64_t> out) {
-  constexpr std::size_t most_bytes = 32'000; // the sum of so many squares of at most 255² fits 31 bits
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const std::uint8_t* place = first + static_cast<std::ptrdiff_t>(i) * step;
-    WideSquareSum sum;
-    std::int64_t whole = 0;
-    std::size_t pending = 0;
-    for (const ByteRun& run : runs)
-      for (std::size_t start = 0; start < run.count; start += most_bytes) {
-        const std::size_t bytes = run.count - start < most_bytes ? run.count - start : most_bytes;
-        if (pending + bytes > most_bytes) {
-          whole += sum.total();
-          sum = WideSquareSum();
-          pending = 0;
-        }
-        sum.add_row(run.values + start, place + run.offset + start, bytes);
-        pending += bytes;
-      }
-    out[i] = whole + sum.total();
-  }
 }
 
 } // namespace
@@ -122,16 +94,10 @@ HWY_AFTER_NAMESPACE();
 namespace tilepack {
 
 HWY_EXPORT(difference_of_rows);
-HWY_EXPORT(differences_along);
 
 int squared_difference_of_rows(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
                                std::ptrdiff_t b_stride, std::size_t bytes, int rows, int limit) {
   return HWY_DYNAMIC_DISPATCH(difference_of_rows)(a, a_stride, b, b_stride, bytes, rows, limit);
-}
-
-void squared_differences_along(const std::uint8_t* first, std::ptrdiff_t step, std::span<const ByteRun> runs,
-                               std::span<std::int64_t> sums) {
-  HWY_DYNAMIC_DISPATCH(differences_along)(first, step, runs, sums);
 }
 
 } // namespace tilepack

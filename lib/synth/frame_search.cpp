@@ -1,8 +1,8 @@
 #include "tilepack/synth/frame_search.h"
 
 #include "tilepack/synth/border_step.h"
-#include "tilepack/synth/byte_rows.h"
 #include "tilepack/synth/frame_refine.h"
+#include "tilepack/synth/side_misfits.h"
 #include "tilepack/synth/strip_space.h"
 #include "tilepack/tileset/random.h"
 
@@ -88,115 +88,20 @@ private:
   std::array<double, 2> usual_step; // across horizontal edges, across vertical ones
 };
 
-// Positions of a tile's inside that are tried: every stride-th, so that their number is bounded.
-struct Positions {
-  int stride = 1;
-  int columns = 0;
-  int rows = 0;
-  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-};
-
-constexpr std::size_t most_positions = 10'000;
-
-Positions inside_positions(const FeatureImage& image, Size tile) {
-  Positions p;
-  for (;; ++p.stride) {
-    p.columns = (image.width - tile.width) / p.stride + 1;
-    p.rows = (image.height - tile.height) / p.stride + 1;
-    if (p.count() <= most_positions) return p;
-  }
-}
-
-using MisfitMap = std::vector<float>; // one a position; sums of exact integers, scaled
-
-// What a strip with its corner patches shows on one side of its edge, as runs of texels along the edge with
-// their places in the tile. For vertical strips x and y are swapped, as in the transposed image.
-struct SidePart {
-  struct Run {
-    int along = 0;
-    int across = 0;
-    std::size_t bytes = 0;
-    std::vector<std::uint8_t> values; // and slack
-  };
-  std::vector<Run> runs;
-};
-
-struct StripAt {
-  const FeatureImage& image;
-  const FrameShape& shape;
-  StripSpace space;
-  SourceTexel place, first, second;
-
-  const std::uint8_t* shown(int along, int across) const {
-    const int half = shape.corner_reach / 2;
-    const SourceTexel t = space.at(along, across);
-    SourceTexel s = sum(place, t);
-    if (along < half) s = sum(corner_origin(space, first, false), t);
-    if (along >= space.length - half) s = sum(corner_origin(space, second, true), t);
-    return image.clamped_texel(s.x, s.y);
-  }
-};
-
-// `before`: the side of lower across, which belongs to the tile above or to the left.
-SidePart side_part(const StripAt& strip, bool before) {
-  SidePart part;
-  const StripSpace& space = strip.space;
-  const bool horizontal = space.direction == Direction::horizontal;
-  const int extent = horizontal ? strip.shape.tile.height : strip.shape.tile.width;
-  for (int k = 0; k < space.reach; ++k) {
-    const int across = before ? space.reach - 1 - k : space.reach + k;
-    const int skip = horizontal ? k : k + 1; // the diagonal belongs to the horizontal strips
-    SidePart::Run run{skip, before ? extent - 1 - k : k, 0, {}};
-    for (int along = skip; along < space.length - skip; ++along) {
-      const std::uint8_t* shown = strip.shown(along, across);
-      run.values.insert(run.values.end(), shown, shown + strip.image.channels);
+// The least of f(0) … f(count - 1), with eight minima side by side so that vectors can be used.
+template <class F>
+double least_of(std::size_t count, F f) {
+  constexpr std::size_t lanes = 8;
+  float least[lanes];
+  std::fill_n(least, lanes, std::numeric_limits<float>::max());
+  std::size_t p = 0;
+  for (; p + lanes <= count; p += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const float v = f(p + k);
+      least[k] = v < least[k] ? v : least[k];
     }
-    run.bytes = run.values.size();
-    run.values.resize(run.bytes + byte_row_slack);
-    part.runs.push_back(std::move(run));
-  }
-  return part;
-}
-
-FeatureImage transposed(const FeatureImage& image) {
-  FeatureImage result{image.height, image.width, image.channels, {}};
-  result.values.reserve(image.values.size());
-  for (int y = 0; y < result.height; ++y)
-    for (int x = 0; x < result.width; ++x)
-      result.values.insert(result.values.end(), image.texel(y, x), image.texel(y, x) + image.channels);
-  return result;
-}
-
-// What vector loads may read past the last texel.
-FeatureImage with_slack(FeatureImage image) {
-  image.values.resize(image.values.size() + byte_row_slack);
-  return image;
-}
-
-// `image` is transposed for vertical strips; `positions` are of the plain one.
-MisfitMap misfits(const FeatureImage& image, const Positions& positions, const SidePart& part, bool swapped,
-                  int depth) {
-  std::vector<ByteRun> runs;
-  for (const auto& run : part.runs)
-    if (run.bytes > 0)
-      runs.push_back({run.values.data(), run.bytes, image.texel(run.along, run.across) - image.texel(0, 0)});
-  MisfitMap map(positions.count());
-  // Along the edge, which is along the rows of the image.
-  const int lines = swapped ? positions.columns : positions.rows;
-  const int places = swapped ? positions.rows : positions.columns;
-  std::vector<std::int64_t> sums(static_cast<std::size_t>(places));
-  for (int line = 0; line < lines; ++line) {
-    squared_differences_along(image.texel(0, line * positions.stride),
-                              static_cast<std::ptrdiff_t>(positions.stride) * image.channels, runs, sums);
-    for (int place = 0; place < places; ++place) {
-      const int i = swapped ? line : place;
-      const int j = swapped ? place : line;
-      map[static_cast<std::size_t>(j) * static_cast<std::size_t>(positions.columns) +
-          static_cast<std::size_t>(i)] =
-          static_cast<float>(static_cast<double>(sums[static_cast<std::size_t>(place)]) / depth);
-    }
-  }
-  return map;
+  for (; p < count; ++p) least[0] = std::min(least[0], f(p));
+  return static_cast<double>(*std::min_element(least, least + lanes));
 }
 
 struct StripChoices {
@@ -208,11 +113,11 @@ struct StripChoices {
 // One start: its corner patches, and for every strip (horizontal ones first) the places to choose from.
 class FrameChoice {
 public:
-  FrameChoice(const FeatureImage& feature_image, const FeatureImage& transposed_image,
+  FrameChoice(const FeatureImage& feature_image, const SideMisfits& misfits,
               const SampleStatistics& sample_statistics, int sample_scale, const FrameShape& frame_shape,
               const PatchSearch& search, const FrameSearchOptions& search_options, std::uint64_t start)
-      : image(feature_image), transpose(transposed_image), statistics(sample_statistics), scale(sample_scale),
-        shape(frame_shape), options(search_options), positions(inside_positions(image, shape.tile)) {
+      : image(feature_image), statistics(sample_statistics), scale(sample_scale), shape(frame_shape),
+        options(search_options), positions(misfits.positions()) {
     place_corners(start);
     const CandidateList list(image, options);
     strips.resize(shape.horizontal.size() + shape.vertical.size());
@@ -225,12 +130,8 @@ public:
       StripChoices& strip = strips[i];
       strip.candidates = list.best(map, space, shape.corner_reach);
       strip.maps.resize(strip.candidates.size());
-      const bool swapped = space.direction == Direction::vertical;
       tbb::parallel_for(std::size_t{0}, strip.maps.size(), [&](std::size_t c) {
-        const StripAt at{image, shape, space, strip.candidates[c].place, first, second};
-        for (const bool before : {true, false})
-          strip.maps[c][before ? 0 : 1] =
-              misfits(swapped ? transpose : image, positions, side_part(at, before), swapped, shape.reach);
+        strip.maps[c] = misfits.of({image, shape, space, strip.candidates[c].place, first, second});
       });
     });
     list_tiles();
@@ -358,14 +259,10 @@ private:
     if (parts.empty()) return costs;
     for (const auto& maps : strip.maps) {
       const MisfitMap& a = maps[parts.front()];
-      float least = std::numeric_limits<float>::max();
-      if (parts.size() == 1) {
-        for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p]);
-      } else {
-        const MisfitMap& b = maps[parts.back()];
-        for (std::size_t p = 0; p < rest.size(); ++p) least = std::min(least, rest[p] + a[p] + b[p]);
-      }
-      costs.push_back(static_cast<double>(least));
+      const MisfitMap& b = maps[parts.back()];
+      costs.push_back(parts.size() == 1
+                          ? least_of(rest.size(), [&](std::size_t p) { return rest[p] + a[p]; })
+                          : least_of(rest.size(), [&](std::size_t p) { return rest[p] + a[p] + b[p]; }));
     }
     return costs;
   }
@@ -405,17 +302,13 @@ private:
     for (std::size_t i = 0; i < strips.size(); ++i)
       total += uses[i] * strips[i].candidates[strips[i].chosen].misfit;
     for (const auto& tile : tiles) {
-      float least = std::numeric_limits<float>::max();
-      for (std::size_t p = 0; p < positions.count(); ++p)
-        least = std::min(least, fits[p] + map_of(tile[0])[p] + map_of(tile[1])[p] + map_of(tile[2])[p] +
-                                    map_of(tile[3])[p]);
-      total += static_cast<double>(least);
+      const MisfitMap &n = map_of(tile[0]), &e = map_of(tile[1]), &s = map_of(tile[2]), &w = map_of(tile[3]);
+      total += least_of(fits.size(), [&](std::size_t p) { return fits[p] + n[p] + e[p] + s[p] + w[p]; });
     }
     return total;
   }
 
   const FeatureImage& image;
-  const FeatureImage& transpose;
   const SampleStatistics& statistics;
   int scale; // texels of the sample to one of the image
   const FrameShape& shape;
@@ -439,12 +332,11 @@ FramePlan searched_frame(const FeaturePyramid& pyramid, const PatchSearch& searc
   const int levels = static_cast<int>(pyramid.size());
   const FrameShape small = halved(shape, levels - 1);
   report(progress, "frame search", 0.0);
-  const FeatureImage plain = with_slack(pyramid.back());
-  const FeatureImage turned = with_slack(transposed(pyramid.back()));
+  const SideMisfits misfits(pyramid.back(), small);
   std::vector<FramePlan> plans(static_cast<std::size_t>(options.starts));
   std::vector<double> costs(plans.size());
   tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t start) {
-    FrameChoice choice(plain, turned, statistics, 1 << (levels - 1), small, search, options, start);
+    FrameChoice choice(pyramid.back(), misfits, statistics, 1 << (levels - 1), small, search, options, start);
     costs[start] = choice.improve();
     plans[start] = choice.plan();
   });

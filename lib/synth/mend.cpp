@@ -128,6 +128,7 @@ void favour_fresh(PositionMap& map, const Usage& usage, Size window, double fres
 void mend_spots(const FeaturePyramid& pyramid, const PatchSearch& search, const Usage& usage,
                 const Phase& phase, const std::vector<std::uint8_t>& fixed, const MendOptions& options,
                 SourceCanvas& canvas) {
+  if (options.spots == 0) return;
   const FeatureImage& image = pyramid.front();
   const int scale = 1 << (pyramid.size() - 1);
   SpotFinder finder(canvas, std::max(1, options.window / 2));

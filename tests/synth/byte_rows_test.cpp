@@ -48,34 +48,3 @@ TEST_CASE("blocks of bytes are compared as by the plain sum, for every width") {
     CHECK(difference(static_cast<int>(expected / 2)) >= expected / 2);
   }
 }
-
-TEST_CASE("runs laid along a row are compared as by the plain sum, however long they are") {
-  const auto image = bytes(200'000, 1);
-  const auto values = bytes(70'000, 2);
-  const std::vector<ByteRun> runs{{values.data(), 21, 0},
-                                  {values.data() + 21, 64, 500},
-                                  {values.data() + 100, 1, 7},
-                                  {values.data() + 101, 0, 0},
-                                  {values.data(), 70'000, 40'000}};
-  for (const std::ptrdiff_t step : {1, 3, 12}) {
-    std::vector<std::int64_t> sums(40);
-    squared_differences_along(image.data(), step, runs, sums);
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      std::int64_t expected = 0;
-      for (const ByteRun& run : runs)
-        expected += plain_difference(
-            run.values, image.data() + static_cast<std::ptrdiff_t>(i) * step + run.offset, run.count);
-      INFO("step " << step << ", place " << i);
-      CHECK(sums[i] == expected);
-    }
-  }
-}
-
-TEST_CASE("sums of the largest differences do not overflow") {
-  const std::vector<std::uint8_t> none(100'000 + byte_row_slack, 0);
-  const std::vector<std::uint8_t> full(100'000 + byte_row_slack, 255);
-  const std::vector<ByteRun> runs{{none.data(), 100'000, 0}};
-  std::vector<std::int64_t> sum(1);
-  squared_differences_along(full.data(), 1, runs, sum);
-  CHECK(sum[0] == 255LL * 255 * 100'000);
-}
