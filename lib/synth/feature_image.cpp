@@ -1,5 +1,7 @@
 #include "tilepack/synth/feature_image.h"
 
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 
 namespace tilepack {
@@ -103,28 +105,31 @@ FeatureImage feature_image(std::span<const SampleMap> samples) {
 
   const Image& any = samples.front().image;
   FeatureImage result{any.width(), any.height(), static_cast<int>(sources.size()), {}};
-  result.values.reserve(static_cast<std::size_t>(any.width()) * static_cast<std::size_t>(any.height()) *
-                        sources.size());
-  for (int y = 0; y < any.height(); ++y)
+  const std::size_t row = static_cast<std::size_t>(any.width()) * sources.size();
+  result.values.resize(row * static_cast<std::size_t>(any.height()));
+  tbb::parallel_for(0, any.height(), [&](int y) {
+    std::uint8_t* value = result.values.data() + static_cast<std::size_t>(y) * row;
     for (int x = 0; x < any.width(); ++x)
-      for (const Source& source : sources)
-        result.values.push_back(feature(source, source.image->texel(x, y)));
+      for (const Source& source : sources) *value++ = feature(source, source.image->texel(x, y));
+  });
   return result;
 }
 
 FeatureImage halved(const FeatureImage& image) {
   FeatureImage result{image.width / 2, image.height / 2, image.channels, {}};
-  result.values.reserve(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height) *
-                        static_cast<std::size_t>(result.channels));
-  for (int y = 0; y < result.height; ++y)
+  const std::size_t row = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.channels);
+  result.values.resize(row * static_cast<std::size_t>(result.height));
+  tbb::parallel_for(0, result.height, [&](int y) {
+    std::uint8_t* value = result.values.data() + static_cast<std::size_t>(y) * row;
     for (int x = 0; x < result.width; ++x) {
       const std::uint8_t* a = image.texel(2 * x, 2 * y);
       const std::uint8_t* b = image.texel(2 * x, 2 * y + 1);
       for (int c = 0; c < image.channels; ++c) {
         const int sum = a[c] + a[c + image.channels] + b[c] + b[c + image.channels];
-        result.values.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
+        *value++ = static_cast<std::uint8_t>((sum + 2) / 4);
       }
     }
+  });
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include "tilepack/tileset/border_colors.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -332,8 +333,10 @@ SetReport set_report(const FeatureImage& image, const SampleStatistics& statisti
   f.cut_length = rounded(static_cast<double>(all.size()) / tile_number);
   f.cut_mean = rounded(mean_of(all));
   f.cut_p95 = rounded(p95_of(std::move(all)));
-  f.border_mean = rounded(mean_across_borders(image, sources));
-  f.sample_step = rounded(step_of_sample(image));
+  tbb::parallel_invoke([&] { f.border_mean = rounded(mean_across_borders(image, sources)); },
+                       [&] { f.sample_step = rounded(step_of_sample(image)); },
+                       [&] { f.histogram_distance = rounded(distance_of(image, statistics, uses)); },
+                       [&] { report.landmark = landmark_of(image, showing, tiles); });
   for (const TileFigures& tile : report.tiles) {
     f.in_pieces += tile.in_pieces / tile_number;
     f.fresh += tile.fresh / tile_number;
@@ -346,8 +349,6 @@ SetReport set_report(const FeatureImage& image, const SampleStatistics& statisti
   for (const int n : uses) squares += static_cast<double>(n) * n;
   f.distinct_tiles = rounded(tile_texels * tile_number * tile_number / squares);
   f.coverage = rounded(coverage_of(uses, sample));
-  f.histogram_distance = rounded(distance_of(image, statistics, uses));
-  report.landmark = landmark_of(image, showing, tiles);
   return report;
 }
 

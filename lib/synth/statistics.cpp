@@ -1,12 +1,15 @@
 #include "tilepack/synth/statistics.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 namespace tilepack {
 namespace {
 
-constexpr int thresholds = 15;
+constexpr std::size_t thresholds = 15;
 constexpr int most_channels = 3;
 
 using Plane = std::vector<int>; // one measure, a value a texel
@@ -58,6 +61,21 @@ Plane smoothed(const Plane& plane, int width, int height, int reach) {
   return result;
 }
 
+// Of each channel its values and, next to them, its means over squares; contrast comes last.
+Plane measure(const FeatureImage& image, int channels, int which) {
+  if (which == 2 * channels) return contrast_of(image);
+  Plane values = values_of(image, which / 2);
+  return which % 2 == 0 ? values : smoothed(values, image.width, image.height, 4);
+}
+
+// They split the values into equal parts.
+std::array<int, thresholds> limits_of(Plane plane) {
+  std::sort(plane.begin(), plane.end());
+  std::array<int, thresholds> limits;
+  for (std::size_t t = 0; t < thresholds; ++t) limits[t] = plane[plane.size() * (t + 1) / (thresholds + 1)];
+  return limits;
+}
+
 } // namespace
 
 SampleStatistics::SampleStatistics(const FeatureImage& image, int most_texels) {
@@ -71,36 +89,28 @@ SampleStatistics::SampleStatistics(const FeatureImage& image, int most_texels) {
   }
   width = level->width;
   height = level->height;
-  std::vector<Plane> planes;
-  for (int c = 0; c < std::min(level->channels, most_channels); ++c) {
-    planes.push_back(values_of(*level, c));
-    planes.push_back(smoothed(planes.back(), width, height, 4));
-  }
-  planes.push_back(contrast_of(*level));
-
-  functions = static_cast<int>(planes.size()) * thresholds;
-  std::vector<int> limits;
-  for (const Plane& plane : planes) {
-    Plane sorted = plane;
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t t = 1; t <= thresholds; ++t)
-      limits.push_back(sorted[sorted.size() * t / (thresholds + 1)]);
-  }
+  const int channels = std::min(level->channels, most_channels);
+  const auto planes = static_cast<std::size_t>(2 * channels + 1);
+  functions = static_cast<int>(planes * thresholds);
   const auto count = static_cast<std::size_t>(functions);
   const std::size_t stride = (static_cast<std::size_t>(width) + 1) * count;
   sums.assign(stride * (static_cast<std::size_t>(height) + 1), 0);
-  std::vector<std::int32_t> run(count);
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-    std::fill(run.begin(), run.end(), 0);
-    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
-      const std::int32_t* above = sums.data() + y * stride + (x + 1) * count;
-      std::int32_t* here = sums.data() + (y + 1) * stride + (x + 1) * count;
-      for (std::size_t f = 0; f < count; ++f) {
-        run[f] += planes[f / thresholds][y * static_cast<std::size_t>(width) + x] < limits[f];
-        here[f] = above[f] + run[f];
+  tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
+    const Plane plane = measure(*level, channels, static_cast<int>(p));
+    const std::array<int, thresholds> limits = limits_of(plane);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+      std::array<std::int32_t, thresholds> run{};
+      for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+        const std::int32_t* above = sums.data() + y * stride + (x + 1) * count + p * thresholds;
+        std::int32_t* here = sums.data() + (y + 1) * stride + (x + 1) * count + p * thresholds;
+        const int value = plane[y * static_cast<std::size_t>(width) + x];
+        for (std::size_t t = 0; t < thresholds; ++t) {
+          run[t] += value < limits[t];
+          here[t] = above[t] + run[t];
+        }
       }
     }
-  }
+  });
   const std::int32_t* all = sums.data() + sums.size() - count;
   for (std::size_t f = 0; f < count; ++f)
     target.push_back(all[f] / (static_cast<double>(width) * static_cast<double>(height)));
