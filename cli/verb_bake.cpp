@@ -214,7 +214,8 @@ Action declare_bake(CLI::App& app) {
                  "a further map of the material, in register with SAMPLE; may be repeated")
       ->type_name("ROLE=FILE")
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_option("--preset", arguments->preset,
                  "options from a built-in preset or a JSON file; flags override it")
       ->type_name("NAME|FILE");

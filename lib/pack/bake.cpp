@@ -112,7 +112,7 @@ std::vector<SampleMap> flattened_maps(std::span<const SampleMap> samples, const 
                                       Size tile) {
   std::vector<SampleMap> maps;
   for (const SampleMap& map : samples) {
-    maps.push_back(flattened(map, options.flatten / 100.0, tile));
+    maps.push_back(flattened(map, options.flatten / 100.0, tile, options.depth));
     check_values(maps.back(), options.depth.value_or(map.depth));
   }
   return maps;

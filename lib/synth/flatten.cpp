@@ -257,7 +257,7 @@ float stored(double value, Depth depth) {
 
 } // namespace
 
-SampleMap flattened(SampleMap map, double share, Size tile) {
+SampleMap flattened(SampleMap map, double share, Size tile, std::optional<Depth> depth) {
   if (share <= 0 || (map.role != Role::color && map.role != Role::height)) return map;
   const Image& image = map.image;
   const Reading reading(map);
@@ -267,6 +267,7 @@ SampleMap flattened(SampleMap map, double share, Size tile) {
   const Means whole = whole_means(means, reading);
   smooth(means, reach);
   const Levels levels = levels_of(map, reading, means, whole);
+  const Depth kept = depth.value_or(map.depth);
 
   tbb::parallel_for(0, image.height(), [&](int y) {
     for (int x = 0; x < image.width(); ++x) {
@@ -278,12 +279,13 @@ SampleMap flattened(SampleMap map, double share, Size tile) {
         double flat = map.role == Role::height ? value + share * (levels.level[c] - local)
                                                : value * gain(local, whole[c], levels.level[c], share);
         if (reading.decode) flat = linear_to_srgb(flat);
-        result[c] = stored(flat, map.depth);
+        result[c] = stored(flat, kept);
       }
       if (reading.weighted) result.back() = given.back();
     }
   });
   map.image = std::move(means);
+  map.depth = kept;
   return map;
 }
 

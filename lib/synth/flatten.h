@@ -2,6 +2,8 @@
 
 #include "tilepack/tileset/map.h"
 
+#include <optional>
+
 namespace tilepack {
 
 /// The map with its slow shading taken out: uneven light, or a tone that drifts across the sample, whose dark
@@ -18,10 +20,10 @@ namespace tilepack {
 ///   others   as they are: a normal has no part that is light, and roughness or a mask holds for its texel
 ///            whatever lies round it
 ///
-/// `share` is 0..1; 0 returns the map as it came. The result has the map's depth: integers are clamped to
-/// 0..1 and rounded, f16 is clamped to ±65504, f32 has no bounds. Values must be finite.
+/// `share` is 0..1; 0 returns the map as it came. The result has the depth asked for, or the map's: integers
+/// are clamped to 0..1 and rounded, f16 is clamped to ±65504, f32 has no bounds. Values must be finite.
 ///
 /// Deterministic for any number of threads. Time grows with the number of texels alone, whatever the tile.
-SampleMap flattened(SampleMap map, double share, Size tile);
+SampleMap flattened(SampleMap map, double share, Size tile, std::optional<Depth> depth = {});
 
 } // namespace tilepack

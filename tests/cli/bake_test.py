@@ -130,6 +130,9 @@ class Bake(CommandCase):
                          [("color", "color"), ("normal", "normal"), ("roughness", "roughness"), ("wet", "data")])
         files = self.contents("out")
         self.assertEqual(files["roughness_0.png"], files["wet_0.png"])
+        sample = self.noise_png("sample.png")
+        self.run_tilepack("bake", "--map", f"normal={normal}", sample, "-o", "map_first", *SMALL)
+        self.assertEqual([m["name"] for m in self.pack("map_first")["maps"]], ["color", "normal"])
 
     def test_a_folder_is_a_material(self):
         os.mkdir(self.path("rock"))

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
 using namespace tilepack;
 using tilepack::testing::blobs;
@@ -226,6 +227,16 @@ TEST_CASE("black, white and a sun stay within bounds", "[flatten]") {
   const Image tall = painted(96, 96, 1, [](int x, int, int) { return x < 48 ? 65504.0 : -65504.0; });
   const Image held = flattened(map_of(Role::height, Depth::f16, tall), 1, tile).image;
   CHECK(std::all_of(held.data().begin(), held.data().end(), [](float v) { return std::abs(v) <= 65504.0f; }));
+  // A finer depth than the sample's keeps what rounding to its own would take.
+  const auto distinct = [](const Image& image) {
+    return std::set<float>(image.data().begin(), image.data().end()).size();
+  };
+  const SampleMap coarse = map_of(Role::height, Depth::u8, spots);
+  const SampleMap fine = flattened(coarse, 1, tile, Depth::u16);
+  CHECK(fine.depth == Depth::u16);
+  CHECK(distinct(fine.image) > 1000);
+  CHECK(distinct(flattened(coarse, 1, tile).image) <= 256);
+  CHECK(quantised(fine.image, Depth::u8) == flattened(coarse, 1, tile).image);
   const Image tiny(4, 5, 3, 0.5f); // a tile may be larger than the image
   CHECK(flattened(color_map(quantised(tiny, Depth::u8)), 1, {64, 64}).image == quantised(tiny, Depth::u8));
 }
