@@ -110,9 +110,12 @@ void check_flatten(int percent) {
 // Values can leave the range that is stored: four times as bright is too much for some half.
 std::vector<SampleMap> flattened_maps(std::span<const SampleMap> samples, const BakeOptions& options,
                                       Size tile) {
+  // Rounded once, to what is stored. Of f16 later, for what is too large for it is refused and not clamped.
+  std::optional<Depth> depth = options.depth;
+  if (depth == Depth::f16) depth = Depth::f32;
   std::vector<SampleMap> maps;
   for (const SampleMap& map : samples) {
-    maps.push_back(flattened(map, options.flatten / 100.0, tile, options.depth));
+    maps.push_back(flattened(map, options.flatten / 100.0, tile, depth));
     check_values(maps.back(), options.depth.value_or(map.depth));
   }
   return maps;
@@ -160,11 +163,11 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   result.sample = studied(samples, periods);
   result.sources = subset(synthesize(result.sample, synth, progress), wanted);
   report(progress, "figures", 0.0);
-  tbb::parallel_invoke(
-      [&] { result.report = set_report(result.sample.features, result.sample.statistics, result.sources); },
-      [&] {
-        result.pack = packed(assembled(result.sources, samples), options, options.synth.seed, progress);
-      });
+  tbb::parallel_invoke([&] { result.report = set_report(result.sample, result.sources); },
+                       [&] {
+                         result.pack = packed(assembled(result.sources, samples), options, options.synth.seed,
+                                              progress);
+                       });
   result.pack.generator.version = TILEPACK_VERSION;
   result.pack.generator.options = recorded_options(options);
   result.pack.generator.seed = options.synth.seed;

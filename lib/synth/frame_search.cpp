@@ -22,12 +22,23 @@ struct Candidate {
   double misfit = 0.0; // of its ends, per texel of overlap depth
 };
 
+// The part of a strip's window that tiles show on average, in texels of a sample `scale` times as large.
+Rect shown_area(const StripSpace& space, SourceTexel place, int scale) {
+  const int shown = std::max(1, space.reach);
+  const SourceTexel at = sum(place, space.at(0, space.reach - shown / 2));
+  const SourceTexel extent = space.at(space.length, shown);
+  return {at.x * scale, at.y * scale, extent.x * scale, extent.y * scale};
+}
+
 // The best places by misfit and evenness, no two within a few texels.
 class CandidateList {
 public:
-  CandidateList(const FeatureImage& feature_image, const FrameSearchOptions& search_options)
-      : image(feature_image), options(search_options), mean(channel_means({0, 0}, image.width, image.height)),
-        usual_step{mean_step(image, Direction::horizontal), mean_step(image, Direction::vertical)} {}
+  CandidateList(const FeatureImage& feature_image, const CellDeviations& cell_deviations, int sample_scale,
+                const FrameSearchOptions& search_options)
+      : image(feature_image), deviations(cell_deviations), scale(sample_scale), options(search_options),
+        mean(channel_means({0, 0}, image.width, image.height)), usual_step{
+                                                                    mean_step(image, Direction::horizontal),
+                                                                    mean_step(image, Direction::vertical)} {}
 
   std::vector<Candidate> best(const PositionMap& map, const StripSpace& space, int depth) const {
     std::vector<std::size_t> order(map.values.size());
@@ -54,6 +65,7 @@ public:
     for (Candidate& c : apart) {
       const double excess = step_across(image, space, c.place) / usual - 1.0;
       c.misfit *= 1.0 + options.calmness * excess * excess;
+      c.misfit *= 1.0 + options.caution * excess_in(deviations, shown_area(space, c.place, scale));
     }
     std::stable_sort(apart.begin(), apart.end(),
                      [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
@@ -83,6 +95,8 @@ private:
   }
 
   const FeatureImage& image;
+  const CellDeviations& deviations; // of the sample, which is `scale` times as large as the image
+  int scale;
   const FrameSearchOptions& options;
   std::vector<double> mean;
   std::array<double, 2> usual_step; // across horizontal edges, across vertical ones
@@ -114,12 +128,12 @@ struct StripChoices {
 class FrameChoice {
 public:
   FrameChoice(const FeatureImage& feature_image, const SideMisfits& misfits,
-              const SampleStatistics& sample_statistics, int sample_scale, const FrameShape& frame_shape,
+              const StudiedSample& studied_sample, int sample_scale, const FrameShape& frame_shape,
               const PatchSearch& search, const FrameSearchOptions& search_options, std::uint64_t start)
-      : image(feature_image), statistics(sample_statistics), scale(sample_scale), shape(frame_shape),
-        options(search_options), positions(misfits.positions()) {
+      : image(feature_image), sample(studied_sample), statistics(sample.statistics), scale(sample_scale),
+        shape(frame_shape), options(search_options), positions(misfits.positions()) {
     place_corners(start);
-    const CandidateList list(image, options);
+    const CandidateList list(image, sample.deviations, scale, options);
     strips.resize(shape.horizontal.size() + shape.vertical.size());
     tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
       const StripSpace space = space_of(shape, direction(i));
@@ -189,8 +203,10 @@ private:
     const auto range_x = static_cast<std::uint32_t>(std::max(1, image.width - 2 * margin + 1));
     const auto range_y = static_cast<std::uint32_t>(std::max(1, image.height - 2 * margin + 1));
     for (int corner = 0; corner < shape.corners; ++corner) {
-      // The farthest of a few from those placed already.
+      // Of a few that which shows least of what the eye finds again, and of these the farthest from those
+      // placed already: half of all lattice points show a patch, if there are two.
       SourceTexel best{};
+      double least_excess = std::numeric_limits<double>::max();
       int best_distance = -1;
       for (std::uint64_t attempt = 0; attempt < 4; ++attempt) {
         const std::uint64_t index = (start * 16 + static_cast<std::uint64_t>(corner)) * 16 + attempt;
@@ -200,7 +216,13 @@ private:
         int distance = std::numeric_limits<int>::max();
         for (const SourceTexel& other : corners)
           distance = std::min(distance, std::abs(at.x - other.x) + std::abs(at.y - other.y));
-        if (distance > best_distance) {
+        const int half = shape.corner_reach / 2;
+        const double excess =
+            options.caution > 0 ? excess_in(sample.deviations, {(at.x - half) * scale, (at.y - half) * scale,
+                                                                2 * half * scale, 2 * half * scale})
+                                : 0.0;
+        if (excess < least_excess || (excess == least_excess && distance > best_distance)) {
+          least_excess = excess;
           best_distance = distance;
           best = at;
         }
@@ -287,14 +309,9 @@ private:
     return strip.chosen != before;
   }
 
-  // The part of a strip's window that tiles show on average, in texels of the sample.
   Rect shown_area(std::size_t strip, std::size_t candidate) const {
-    const StripSpace space = space_of(shape, direction(strip));
-    const int shown = std::max(1, space.reach);
-    const SourceTexel at =
-        sum(strips[strip].candidates[candidate].place, space.at(0, space.reach - shown / 2));
-    const SourceTexel extent = space.at(space.length, shown);
-    return {at.x * scale, at.y * scale, extent.x * scale, extent.y * scale};
+    return tilepack::shown_area(space_of(shape, direction(strip)), strips[strip].candidates[candidate].place,
+                                scale);
   }
 
   double cost() const {
@@ -309,6 +326,7 @@ private:
   }
 
   const FeatureImage& image;
+  const StudiedSample& sample;
   const SampleStatistics& statistics;
   int scale; // texels of the sample to one of the image
   const FrameShape& shape;
@@ -327,7 +345,7 @@ private:
 } // namespace
 
 FramePlan searched_frame(const FeaturePyramid& pyramid, const PatchSearch& search,
-                         const SampleStatistics& statistics, const FrameShape& shape,
+                         const StudiedSample& sample, const FrameShape& shape,
                          const FrameSearchOptions& options, const Progress& progress) {
   const int levels = static_cast<int>(pyramid.size());
   const FrameShape small = halved(shape, levels - 1);
@@ -336,7 +354,7 @@ FramePlan searched_frame(const FeaturePyramid& pyramid, const PatchSearch& searc
   std::vector<FramePlan> plans(static_cast<std::size_t>(options.starts));
   std::vector<double> costs(plans.size());
   tbb::parallel_for(std::size_t{0}, plans.size(), [&](std::size_t start) {
-    FrameChoice choice(pyramid.back(), misfits, statistics, 1 << (levels - 1), small, search, options, start);
+    FrameChoice choice(pyramid.back(), misfits, sample, 1 << (levels - 1), small, search, options, start);
     costs[start] = choice.improve();
     plans[start] = choice.plan();
   });

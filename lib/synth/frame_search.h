@@ -4,7 +4,7 @@
 #include "tilepack/synth/feature_pyramid.h"
 #include "tilepack/synth/frame.h"
 #include "tilepack/synth/patch_search.h"
-#include "tilepack/synth/statistics.h"
+#include "tilepack/synth/studied_sample.h"
 
 #include <vector>
 
@@ -18,6 +18,8 @@ struct FrameSearchOptions {
   int rounds = 3;         ///< passes over all strips
   double evenness = 2;    ///< weight of a strip's deviation from the sample's mean color
   double calmness = 4;    ///< weight of a strip's step across its edge being other than usual
+  double caution = 1.0;   ///< a strip that shows a part that deviates by striking_deviation + d (see
+                          ///< CellDeviations) fits 1 + caution · d times as badly
   double likeness = 1500; ///< weight of the distance between all strips together and the sample's statistics
 };
 
@@ -31,7 +33,7 @@ struct FrameSearchOptions {
 /// The second is a sum of four maps, one a side, over positions of the inside, so that trying another place
 /// for a strip costs two maps and a few additions.
 FramePlan searched_frame(const FeaturePyramid& pyramid, const PatchSearch& search,
-                         const SampleStatistics& statistics, const FrameShape& shape,
+                         const StudiedSample& sample, const FrameShape& shape,
                          const FrameSearchOptions& options, const Progress& progress = {});
 
 } // namespace tilepack

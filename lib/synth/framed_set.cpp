@@ -176,18 +176,17 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
 SourceMap framed_set(const StudiedSample& sample, const SynthOptions& options,
                      const FramedSetSettings& settings, const Progress& progress) {
   const FeatureImage& image = sample.features;
-  const SampleStatistics& statistics = sample.statistics;
   const FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
   const FeaturePyramid pyramid = pyramid_down_to(image, shape.tile, settings.smallest_search_tile);
   const PatchSearch search(pyramid.back());
-  const FramePlan plan = searched_frame(pyramid, search, statistics, shape, settings.frame, progress);
+  const FramePlan plan = searched_frame(pyramid, search, sample, shape, settings.frame, progress);
   Frame frame = joined_frame(image, shape, plan);
   tbb::parallel_invoke(
       [&] { mend_strips(pyramid, search, shape, plan, settings, Direction::horizontal, frame.horizontal); },
       [&] { mend_strips(pyramid, search, shape, plan, settings, Direction::vertical, frame.vertical); });
   auto tiles = framed_tiles(shape, frame);
   const auto interiors =
-      chosen_interiors(pyramid, search, statistics, shape, plan, tiles, settings.interiors, progress);
+      chosen_interiors(pyramid, search, sample, shape, plan, tiles, settings.interiors, progress);
   join_interiors(image, shape, interiors, settings.interiors.bias, tiles);
 
   report(progress, "mending", 0.0);

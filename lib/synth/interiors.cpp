@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -100,6 +101,17 @@ Rect shown_part(const FrameShape& shape, SourceTexel strip, bool horizontal) {
                     : Rect{strip.x + across, strip.y, shown, shape.tile.height};
 }
 
+void set_prices(const CellDeviations& deviations, const InteriorOptions& options, int scale, Usage& usage) {
+  constexpr int side = CellDeviations::side;
+  for (int y = 0; y < deviations.high; ++y)
+    for (int x = 0; x < deviations.wide; ++x) {
+      const double excess = deviations.at(x, y) - striking_deviation;
+      if (excess <= 0) continue;
+      const int price = 1 + static_cast<int>(std::lround(options.caution * excess));
+      usage.set_price({x * side / scale, y * side / scale, side / scale, side / scale}, price);
+    }
+}
+
 // A strip counts once, though it is shown in many tiles: whatever the insides are, it is, and an inside that
 // shows it too wastes no more room than one that shows another inside again.
 void add_strips(const FrameShape& shape, const FramePlan& plan, int scale, Usage& usage) {
@@ -157,10 +169,11 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
 }
 
 std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
-                                          const SampleStatistics& statistics, const FrameShape& shape,
+                                          const StudiedSample& sample, const FrameShape& shape,
                                           const FramePlan& plan, const std::vector<SourceCanvas>& framed,
                                           const InteriorOptions& options, const Progress& progress) {
   const std::size_t tiles = framed.size();
+  const SampleStatistics& statistics = sample.statistics;
   const FeatureImage& small = pyramid.back();
   const int levels = static_cast<int>(pyramid.size());
   const int scale = 1 << (levels - 1);
@@ -186,6 +199,7 @@ std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const P
     return Rect{at.x + inset, at.y + inset, tile.width - 2 * inset, tile.height - 2 * inset};
   };
   Usage usage(small.width, small.height, std::max(1, std::min(tile.width, tile.height) / 16));
+  set_prices(sample.deviations, options, scale, usage);
   add_strips(shape, plan, scale, usage);
   SampleStatistics::Tally tally = strips_tally(shape, plan, statistics);
   const auto inside_in_sample = [&](SourceTexel at) {

@@ -4,7 +4,7 @@
 #include "tilepack/synth/feature_pyramid.h"
 #include "tilepack/synth/frame.h"
 #include "tilepack/synth/patch_search.h"
-#include "tilepack/synth/statistics.h"
+#include "tilepack/synth/studied_sample.h"
 
 #include <vector>
 
@@ -24,6 +24,8 @@ struct InteriorOptions {
   std::uint64_t seed = 0;
   double freshness = 8.0; ///< at f, a part shown as often as the average makes a fit count 1 + f times as bad
   double likeness = 1500.0; ///< weight of the distance between what the set shows and the sample's statistics
+  double caution = 4.0;     ///< showing a part again that deviates by striking_deviation + d (CellDeviations)
+                            ///< is 1 + caution · d times as bad
   int rounds = 6;           ///< passes over all tiles
   std::int64_t bias = 10;   ///< see apply_move
 };
@@ -34,7 +36,7 @@ struct InteriorOptions {
 ///
 /// `search` searches the last level of `pyramid`; its finds are refined in the others.
 std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
-                                          const SampleStatistics& statistics, const FrameShape& shape,
+                                          const StudiedSample& sample, const FrameShape& shape,
                                           const FramePlan& plan, const std::vector<SourceCanvas>& framed,
                                           const InteriorOptions& options, const Progress& progress = {});
 

@@ -183,53 +183,6 @@ double distance_of(const FeatureImage& image, const SampleStatistics& statistics
   return std::sqrt(statistics.distance(tally));
 }
 
-// Means of up to three channels and the mean step between neighbours, for each cell of the sample.
-std::vector<std::vector<double>> cell_measures(const FeatureImage& image, int wide, int high) {
-  const int channels = std::min(image.channels, 3);
-  std::vector<std::vector<double>> measures(static_cast<std::size_t>(channels) + 1);
-  for (int j = 0; j < high; ++j)
-    for (int i = 0; i < wide; ++i) {
-      std::vector<std::int64_t> sums(measures.size());
-      for (int y = j * cell_side; y < (j + 1) * cell_side; ++y)
-        for (int x = i * cell_side; x < (i + 1) * cell_side; ++x) {
-          for (int c = 0; c < channels; ++c) sums[static_cast<std::size_t>(c)] += image.texel(x, y)[c];
-          for (int c = 0; c < channels; ++c)
-            sums.back() += std::abs(image.clamped_texel(x + 1, y)[c] - image.texel(x, y)[c]) +
-                           std::abs(image.clamped_texel(x, y + 1)[c] - image.texel(x, y)[c]);
-        }
-      for (std::size_t m = 0; m < sums.size(); ++m) measures[m].push_back(static_cast<double>(sums[m]));
-    }
-  return measures;
-}
-
-Landmark landmark_of(const FeatureImage& image, const std::vector<int>& showing, std::size_t tiles) {
-  const int wide = image.width / cell_side;
-  const int high = image.height / cell_side;
-  Landmark best;
-  if (wide * high < 2) return best;
-  std::vector<double> deviations(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
-  for (const std::vector<double>& measure : cell_measures(image, wide, high)) {
-    const double mean = mean_of(measure);
-    double squares = 0.0;
-    for (const double v : measure) squares += (v - mean) * (v - mean);
-    const double deviation = std::sqrt(squares / static_cast<double>(measure.size()));
-    for (std::size_t i = 0; deviation > 0 && i < measure.size(); ++i)
-      deviations[i] = std::max(deviations[i], std::abs(measure[i] - mean) / deviation);
-  }
-  for (int j = 0; j < high; ++j)
-    for (int i = 0; i < wide; ++i) {
-      std::int64_t shown = 0;
-      for (int y = j * cell_side; y < (j + 1) * cell_side; ++y)
-        for (int x = i * cell_side; x < (i + 1) * cell_side; ++x) shown += showing[at(x, y, image.width)];
-      const double share = static_cast<double>(shown) /
-                           (static_cast<double>(cell_side * cell_side) * static_cast<double>(tiles));
-      const double deviation = deviations[at(i, j, wide)];
-      if (deviation * share > best.deviation * best.shown)
-        best = {{i * cell_side + cell_side / 2, j * cell_side + cell_side / 2}, deviation, share};
-    }
-  return best;
-}
-
 } // namespace
 
 std::vector<Cut> cuts_of_tile(const FeatureImage& image, const SourceMap& sources, int tile) {
@@ -297,8 +250,8 @@ std::vector<int> pieces_of_tile(const SourceMap& sources, int tile) {
   return piece;
 }
 
-SetReport set_report(const FeatureImage& image, const SampleStatistics& statistics,
-                     const SourceMap& sources) {
+SetReport set_report(const StudiedSample& studied, const SourceMap& sources) {
+  const FeatureImage& image = studied.features;
   const Size sample{image.width, image.height};
   const std::size_t tiles = sources.texels.size();
   const double tile_texels =
@@ -335,8 +288,8 @@ SetReport set_report(const FeatureImage& image, const SampleStatistics& statisti
   f.cut_p95 = rounded(p95_of(std::move(all)));
   tbb::parallel_invoke([&] { f.border_mean = rounded(mean_across_borders(image, sources)); },
                        [&] { f.sample_step = rounded(step_of_sample(image)); },
-                       [&] { f.histogram_distance = rounded(distance_of(image, statistics, uses)); },
-                       [&] { report.landmark = landmark_of(image, showing, tiles); });
+                       [&] { f.histogram_distance = rounded(distance_of(image, studied.statistics, uses)); },
+                       [&] { report.landmark = most_seen(studied.deviations, sample, showing, tiles); });
   for (const TileFigures& tile : report.tiles) {
     f.in_pieces += tile.in_pieces / tile_number;
     f.fresh += tile.fresh / tile_number;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "tilepack/synth/feature_image.h"
 #include "tilepack/synth/source_map.h"
-#include "tilepack/synth/statistics.h"
+#include "tilepack/synth/studied_sample.h"
 
 #include <array>
 #include <cstdint>
@@ -62,22 +61,14 @@ struct TileFigures {
   double fresh = 0;
 };
 
-/// The spot of the sample that the eye is most likely to find again: a 16 x 16 cell unlike the others that
-/// many tiles show.
-struct Landmark {
-  SourceTexel centre;
-  double deviation = 0; ///< of its mean or contrast from those of all cells, in standard deviations
-  double shown = 0;     ///< share of the tiles that show it, averaged over its texels
-};
-
 struct SetReport {
   SetFigures figures;
   std::vector<TileFigures> tiles; ///< by id
   Landmark landmark;              ///< deviation 0 if nothing stands out and is shown
 };
 
-/// `image` and its `statistics`: the sample as synthesis saw it.
-SetReport set_report(const FeatureImage& image, const SampleStatistics& statistics, const SourceMap& sources);
+/// `sample`: as synthesis saw it.
+SetReport set_report(const StudiedSample& sample, const SourceMap& sources);
 
 /// One texel of cut, for drawing.
 struct Cut {

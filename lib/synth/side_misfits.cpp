@@ -70,8 +70,11 @@ SideMisfits::SideMisfits(const FeatureImage& image, const FrameShape& frame_shap
 SideMisfits::View SideMisfits::view_of(FeatureImage image, const StripSpace& space) const {
   const bool swapped = space.direction == Direction::vertical;
   PairPlanes pairs(image, places.stride);
-  View view{std::move(image), std::move(pairs), swapped ? places.columns : places.rows,
-            swapped ? places.rows : places.columns, {}};
+  View view{std::move(image),
+            std::move(pairs),
+            swapped ? places.columns : places.rows,
+            swapped ? places.rows : places.columns,
+            {}};
   const FeatureImage& own = view.image;
   const auto stride = static_cast<std::size_t>(own.width) + 1;
   std::vector<std::int64_t> sums(stride * static_cast<std::size_t>(own.height)); // of the texels before

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/synth/feature_image.h"
+#include "tilepack/synth/landmark.h"
 #include "tilepack/synth/period.h"
 #include "tilepack/synth/statistics.h"
 
@@ -13,8 +14,11 @@ namespace tilepack {
 struct StudiedSample {
   FeatureImage features;
   SampleStatistics statistics; ///< of the features
+  CellDeviations deviations;   ///< likewise
   Periodicity periods;
 };
+
+StudiedSample studied(FeatureImage features, const Periodicity& periods);
 
 /// `samples`: one or more maps of one size. `periods`: theirs, where they are known already.
 StudiedSample studied(std::span<const SampleMap> samples, const std::optional<Periodicity>& periods = {});

@@ -9,11 +9,21 @@ Usage::Usage(int image_width, int image_height, int square_side)
       rows((image_height + square - 1) / square),
       count(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
 
-void Usage::add(Rect area, double weight) {
+void Usage::set_price(Rect area, int price) {
+  if (prices.empty()) prices.assign(count.size(), 1);
   const Bounds b = bounds(area);
   for (std::size_t j = b.first_y; j < b.last_y; ++j)
     for (std::size_t i = b.first_x; i < b.last_x; ++i)
-      count[j * static_cast<std::size_t>(columns) + i] += weight;
+      prices[j * static_cast<std::size_t>(columns) + i] = price;
+}
+
+void Usage::add(Rect area, double weight) {
+  const Bounds b = bounds(area);
+  for (std::size_t j = b.first_y; j < b.last_y; ++j)
+    for (std::size_t i = b.first_x; i < b.last_x; ++i) {
+      const std::size_t n = j * static_cast<std::size_t>(columns) + i;
+      count[n] += prices.empty() ? weight : weight * prices[n];
+    }
 }
 
 void Usage::prepare() {

@@ -12,6 +12,10 @@ class Usage {
 public:
   Usage(int image_width, int image_height, int square_side = 1);
 
+  /// From now on what is added to `area` counts `price` times: seeing it again is so much worse. To be called
+  /// before anything is added.
+  void set_price(Rect area, int price);
+
   /// Counts `area` `weight` times more, which may be negative. Areas are rounded to whole squares of the
   /// image, the nearest one at least; the rest of what lies outside of it is left out, here and in mean().
   void add(Rect area, double weight);
@@ -32,6 +36,7 @@ private:
   int square;
   int columns;
   int rows;
+  std::vector<int> prices;   // none: 1 each
   std::vector<double> count; // with whole weights exact in any order
   std::vector<double> sums;  // summed areas
 };

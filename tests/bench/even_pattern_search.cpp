@@ -22,8 +22,8 @@ namespace {
 
 constexpr int side = 64;
 constexpr double pi = 3.14159265358979323846;
-constexpr double pair_cost = 0.03; // of two equal tiles side by side, along x or y
-constexpr double row_cost = 0.1;   // of three, beyond that of their two pairs
+constexpr double pair_cost = 0.01; // of two equal tiles side by side, along x or y
+constexpr double row_cost = 0.2;   // of three, beyond that of their two pairs
 
 constexpr std::size_t at(int x, int y) {
   return static_cast<std::size_t>((y & (side - 1)) * side + (x & (side - 1)));
@@ -265,7 +265,7 @@ int main(int argc, char** argv) {
   const int colors = argc > 1 ? std::atoi(argv[1]) : 2;
   const int sweeps = argc > 2 ? std::atoi(argv[2]) : 3000;
   Search search(colors, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1,
-                {{8, 2, 4, 4.0, 0.4}, {16, 4, 8, 4.0, 0.4}});
+                {{8, 2, 4, 4.0, 0.3}, {16, 4, 8, 4.0, 0.3}});
   search.run(sweeps, 0.3);
   search.print();
 }

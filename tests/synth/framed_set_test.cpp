@@ -327,6 +327,13 @@ TEST_CASE("usage is the mean over areas, those partly outside too") {
   CHECK(usage.mean({0, 0, 4, 4}) == Approx((4.0 + 3.0 + 3.0 + 2.0) / 4.0));
   CHECK(usage.mean({8, 4, 50, 50}) == 0.0);
   CHECK(usage.mean() == Approx(12.0 / 15.0));
+  Usage priced(10, 6, 2);
+  priced.set_price({2, 0, 2, 2}, 7);
+  priced.add({0, 0, 4, 2}, 2.0);
+  priced.add({0, 0, 4, 2}, -1.0);
+  priced.prepare();
+  CHECK(priced.mean({0, 0, 2, 2}) == 1.0);
+  CHECK(priced.mean({2, 0, 2, 2}) == 7.0);
 }
 
 TEST_CASE("the step across a strip is that of the corner patches near its ends and its own between") {

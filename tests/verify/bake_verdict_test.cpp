@@ -319,7 +319,7 @@ TEST_CASE("large tiles and samples make no larger pictures", "[bake_pictures]") 
     for (int x = 0; x < 2000; ++x) sources.texels[0].push_back({x + 500, y});
   const std::vector<SampleMap> samples{{"color", Role::color, Encoding::srgb, Depth::u8, sample}};
   const FeatureImage features = feature_image(samples);
-  const SetReport report = set_report(features, SampleStatistics(features), sources);
+  const SetReport report = set_report(studied(features, {}), sources);
   CHECK(cut_picture(sample, features, sources, report).background.width() < 1600);
   CHECK(use_picture(sample, sources).width() < 1600);
   CHECK(source_picture(sample, sources).background.width() < 1600);
