@@ -20,8 +20,9 @@ constexpr int even_pattern_side = 64;
 constexpr int even_block_bits = 6;
 
 /// Pattern colors row by row, for the numbers of corner colors for which has_even_pattern(). Found by
-/// tests/bench/even_pattern_search.cpp (2 colors: 3000 sweeps, 4: 1000; that of 3 colors by an earlier form
-/// of it, which repeats fewer pairs of tiles 8 apart).
+/// tests/bench/even_pattern_search.cpp: that of 2 colors by 3000 sweeps, those of 3 and 4 by earlier forms of
+/// it (of 3 colors the earliest, which repeats fewer pairs of tiles 8 apart), whose patterns bring no equal
+/// tiles side by side in any case.
 std::vector<int> even_pattern(int colors);
 constexpr bool has_even_pattern(int colors) {
   return colors >= 2 && colors <= 4;
