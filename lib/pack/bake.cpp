@@ -144,7 +144,8 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   std::optional<Periodicity> periods;
   if (options.fit_tile_size) {
     periods = detect_periods(samples);
-    synth.tile_size = fitting_tile_size(*periods, synth.tile_size, samples[0].image.size()).size;
+    const Size fitting = fitting_tile_size(*periods, synth.tile_size, samples[0].image.size()).size;
+    synth.tile_size = {std::max(least_tile_side, fitting.width), std::max(least_tile_side, fitting.height)};
   }
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tilepack {
@@ -212,7 +213,7 @@ Repeat strongest_repeat(const std::vector<double>& correlation) {
 }
 
 // Short runs first: long ones blur a weave, whose rows alternate, to half its period.
-Period strongest_period(const std::vector<Plane>& planes, int shrink) {
+Period strongest_period(const std::vector<Plane>& planes) {
   for (const int part : {56, 16}) {
     Repeat best;
     for (const Plane& plane : planes) {
@@ -220,10 +221,64 @@ Period strongest_period(const std::vector<Plane>& planes, int shrink) {
           strongest_repeat(vertical_autocorrelation(summed_along_rows(plane, plane.width / part)));
       if (repeat.significance > best.significance) best = repeat;
     }
-    if (best.significance >= least_significance)
-      return {best.length * shrink, std::min(1.0, best.strength / 2)};
+    if (best.significance >= least_significance) return {best.length, std::min(1.0, best.strength / 2)};
   }
   return {};
+}
+
+// Normalised correlation of the plane with itself moved by a lag, -1 to 1; 0 where less than a quarter of it
+// is left to compare.
+double correlation_at(const Plane& plane, int dx, int dy) {
+  if (2 * dx > plane.width || 2 * dy > plane.height) return 0;
+  double cross = 0, first = 0, second = 0;
+  for (int y = 0; y + dy < plane.height; ++y)
+    for (int x = 0; x + dx < plane.width; ++x) {
+      const double a = plane.at(x, y), b = plane.at(x + dx, y + dy);
+      cross += a * b;
+      first += a * a;
+      second += b * b;
+    }
+  const double energy = std::sqrt(first) * std::sqrt(second);
+  return energy > 0 ? cross / energy : 0.0;
+}
+
+// In a staggered lattice each course lies half a brick beside the last: half a brick along and one course
+// down in any even number together bring joints onto joints, in an odd number onto bricks. How much better
+// some even lags agree than the best of the odd ones: 0.20 for running bond, up to 0.09 for a floor of
+// squares, less than 0 for cloth.
+constexpr double least_stagger = 0.13;
+
+double stagger(const std::vector<Plane>& planes, double half_brick, double course) {
+  double most = 0;
+  for (const Plane& plane : planes) {
+    const auto at = [&](int i, int j) { // joints may be thinner than what rounding a lag is off by
+      const double dx = i * half_brick, dy = j * course;
+      double best = -1;
+      for (const double x : {std::floor(dx), std::ceil(dx)})
+        for (const double y : {std::floor(dy), std::ceil(dy)})
+          best = std::max(best, correlation_at(plane, static_cast<int>(x), static_cast<int>(y)));
+      return best;
+    };
+    most = std::max(most, (at(2, 0) + at(0, 2) + at(2, 2)) / 3 - std::max(at(2, 1), at(1, 2)));
+  }
+  return most;
+}
+
+// What repeats of both axes together: along one axis alone a staggered lattice seems to repeat after half a
+// brick or a single course. `found` in texels of the planes.
+Periodicity unstaggered(const std::vector<Plane>& planes, const Periodicity& found) {
+  const double x = found.x.length, y = found.y.length;
+  if (x <= 0 || y <= 0) return found;
+  Periodicity result = found;
+  double most = least_stagger;
+  for (const auto& [half_brick, course] : {std::pair{x, y}, std::pair{x / 2, y}, std::pair{x, y / 2}}) {
+    const double found_stagger = stagger(planes, half_brick, course);
+    if (found_stagger <= most) continue;
+    most = found_stagger;
+    result.x.length = 2 * half_brick;
+    result.y.length = 2 * course;
+  }
+  return result;
 }
 
 int halvings(int side) {
@@ -279,7 +334,10 @@ Periodicity detect_periods(std::span<const SampleMap> samples) {
   const std::vector<Plane> rows = features(image);
   std::vector<Plane> columns;
   for (const Plane& plane : rows) columns.push_back(transposed(plane));
-  return {strongest_period(columns, shrink_of(image)), strongest_period(rows, shrink_of(image))};
+  Periodicity found = unstaggered(rows, {strongest_period(columns), strongest_period(rows)});
+  found.x.length *= shrink_of(image);
+  found.y.length *= shrink_of(image);
+  return found;
 }
 
 int whole_periods(const Period& period, int side) {

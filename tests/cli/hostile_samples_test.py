@@ -40,6 +40,8 @@ class Samples(CommandCase):
         self.assertEqual(fits, 12)
         self.refused("bake", "small.png", "-o", "out", "--tile-size", fits + 1, code=INVALID, saying="small.png")
         self.run_tilepack("bake", "small.png", "-o", "out", "--effort", 0, "--tile-size", fits)
+        self.refused("bake", self.noise_png("tiny.png", 3, 3), "-o", "none", "--tile-size", "auto", code=INVALID,
+                     saying=["tiny.png", "3 x 3", "no tile fits"])
 
     def test_maps_of_unequal_sizes(self):
         self.noise_png("color.png", 32, 32)

@@ -42,6 +42,30 @@ TEST_CASE("a wall's courses are found to a quarter of a texel, not their double 
   CHECK(found.y.length == Approx(21.5).margin(0.25));
 }
 
+TEST_CASE("courses without order along them are found one by one") {
+  const Periodicity found = periods_of(grey(256, 256, [](int x, int y) {
+    const int course = static_cast<int>(y / 21.5);
+    return wall(x + static_cast<int>(48 * noise(course, 7)), y);
+  }));
+  CHECK(found.y.length == Approx(21.5).margin(0.25));
+}
+
+TEST_CASE("bricks laid by half repeat after a brick and two courses, squares after one") {
+  const auto laid = [](int offset) {
+    return grey(256, 256, [=](int x, int y) {
+      const int course = y / 16;
+      const int shifted = x + course % 2 * offset;
+      return (y % 16 < 2 || shifted % 48 < 3 ? 0.7 : 0.3) + 0.1 * noise(x, y);
+    });
+  };
+  const Periodicity bond = periods_of(laid(24));
+  CHECK(bond.x.length == Approx(48).margin(0.5));
+  CHECK(bond.y.length == Approx(32).margin(0.5));
+  const Periodicity stacked = periods_of(laid(0));
+  CHECK(stacked.x.length == Approx(48).margin(0.5));
+  CHECK(stacked.y.length == Approx(16).margin(0.5));
+}
+
 TEST_CASE("turning the sample by 90 degrees swaps the axes") {
   const Periodicity found = periods_of(grey(256, 256, [](int x, int y) { return wall(y, x); }));
   CHECK(found.x.length == Approx(21.5).margin(0.25));
