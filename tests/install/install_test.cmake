@@ -42,13 +42,14 @@ if(NOT output MATCHES "^(${value}${value}${value}${value}\n)(${value}${value}${v
 endif()
 
 # EXR files need the module that is loaded when first needed: both programs find the one installed.
-run(${CMAKE_COMMAND} -E env LD_DEBUG=files ${WORK}/moved/bin/tilepack bake ${SOURCE}/samples/pebbles.png -o ${WORK}/pack
+# Under sanitizers other tests look for leaks: the tracer that does it at exit follows LD_DEBUG too, and can fail.
+run(${CMAKE_COMMAND} -E env LD_DEBUG=files ASAN_OPTIONS=detect_leaks=0 ${WORK}/moved/bin/tilepack bake ${SOURCE}/samples/pebbles.png -o ${WORK}/pack
     --format exr --tile-size 32 --effort 0)
 string(REGEX MATCH "calling init: ${WORK}/moved/[^\n]*/libtilepack_openimageio.so" found "${output}")
 if(NOT found)
   message(FATAL_ERROR "the installed program does not load the installed module")
 endif()
-run(${CMAKE_COMMAND} -E env LD_DEBUG=files ${WORK}/example/look_up ${WORK}/pack/color_0.exr)
+run(${CMAKE_COMMAND} -E env LD_DEBUG=files ASAN_OPTIONS=detect_leaks=0 ${WORK}/example/look_up ${WORK}/pack/color_0.exr)
 string(REGEX MATCH "calling init: ${WORK}/moved/[^\n]*/libtilepack_openimageio.so" found "${output}")
 if(NOT found)
   message(FATAL_ERROR "a program that uses tilepack does not load the installed module")
