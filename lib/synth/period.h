@@ -22,8 +22,8 @@ struct Periodicity {
 /// Finds the repeats of the first map (usually the color) by normalised autocorrelation along each axis,
 /// scored by a comb: the mean agreement at lags p, 2p, 3p … less that at p/2, 3p/2 …, so that neither a
 /// multiple nor a fraction of the true period wins. At least two periods must fit into half the sample. Looks
-/// at brightness and hue, low frequencies taken out. Of a staggered lattice, such as bricks laid by half, both
-/// periods are twice what the axes tell: a brick and two courses.
+/// at brightness and hue, low frequencies taken out. Of a staggered lattice, such as bricks laid by half, the
+/// periods are a brick and two courses, unless bricks differ so much that it is not told from a grid.
 ///
 /// Integer arithmetic up to the final ratios: the same on every machine. Samples under 32 texels a side have
 /// no period.
