@@ -19,6 +19,16 @@ std::string HelpFormat::make_option_name(const CLI::Option* option, bool is_posi
   return name;
 }
 
+// CLI11 writes REQUIRED, also beside positionals.
+std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
+  if (option->get_expected_max() == 0) return "";
+  std::string text;
+  if (!option->get_type_name().empty()) text += " " + option->get_type_name();
+  if (option->get_positional() && option->get_expected_max() > 1) text += " ...";
+  if (option->get_required() && !option->get_positional()) text += " (required)";
+  return text;
+}
+
 // CLI11 indents what follows a line break.
 std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
   const std::size_t width = page_width - get_column_width();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "value_check.h"
+
 #include <CLI/CLI.hpp>
 #include <tbb/global_control.h>
 
@@ -10,7 +12,7 @@ namespace tilepack::cli {
 /// Adds --jobs N, shared by the verbs that compute. Results never depend on it.
 inline void add_jobs_option(CLI::App& app, int& jobs) {
   app.add_option("--jobs", jobs, "threads, 1 to 1024; 0: as many as the machine has")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(whole_number(0, 1024, " (0: as many as the machine has)"))
       ->type_name("N");
 }
 

@@ -1,5 +1,7 @@
 #include "render_camera.h"
 
+#include "value_check.h"
+
 #include "tilepack/image/image_file.h"
 #include "tilepack/scanline/mesh.h"
 #include "tilepack/scanline/view_render.h"
@@ -60,17 +62,7 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-SpanPrecision precision_of(const std::string& name) {
-  if (name == "f32") return SpanPrecision::f32;
-  if (name == "f64") return SpanPrecision::f64;
-  throw Error(ErrorKind::usage, "--precision", fmt::format("'{}'; it is f32 or f64", name));
-}
-
 Scene scene_of(const CameraArguments& arguments) {
-  if (!(arguments.repeat >= 1e-6 && arguments.repeat <= 1e6)) {
-    throw Error(ErrorKind::usage, "--repeat",
-                fmt::format("{} tiles a unit; it may be 1e-6..1e6", arguments.repeat));
-  }
   Scene scene;
   if (!arguments.mesh.empty()) {
     scene.triangles = parse_obj(text_of(arguments.mesh), arguments.mesh, arguments.repeat);
@@ -96,8 +88,11 @@ void add_camera_options(CLI::App& app, CameraArguments& a) {
   app.add_option("--mesh", a.mesh, "triangles with texture coordinates instead of the ground, an OBJ file")
       ->type_name("FILE.obj")
       ->group(group);
-  app.add_option("--repeat", a.repeat,
-                 "tiles a world unit of the ground or a unit of texture coordinate (default 1)")
+  app.add_option(
+         "--repeat", a.repeat,
+         "tiles a world unit of the ground or a unit of texture coordinate, 0.000001 to 1000000 (default "
+         "1)")
+      ->check(number(1e-6, 1e6, " tiles a unit"))
       ->type_name("N")
       ->group(group);
   app.add_option("--span", a.span,
@@ -106,14 +101,17 @@ void add_camera_options(CLI::App& app, CameraArguments& a) {
       ->type_name("METHOD")
       ->group(group);
   app.add_option("--reseed", a.reseed, "an exact value every N pixels (default: only at the near end)")
+      ->check(whole_number(0, max_span_pixels, " (0: only at the near end)"))
       ->type_name("N")
       ->group(group);
   app.add_option("--span-error", a.span_error,
-                 "choose --reseed so that no pixel is off by more than this many")
+                 "choose --reseed so that no pixel is off by more than this many, at most 1000")
+      ->check(positive_number(1000, " pixels"))
       ->type_name("PIXELS")
       ->group(group);
-  app.add_option("--precision", a.precision, "of the stepping: f32 (default) or f64")
-      ->type_name("NAME")
+  app.add_option("--precision", a.precision, "of the stepping; f32 unless given")
+      ->check(one_of("f32|f64"))
+      ->type_name("f32|f64")
       ->group(group);
   app.add_option("--background", a.background,
                  "what shows where nothing is, one stored value a channel (default 0)")
@@ -139,16 +137,12 @@ void refuse_window_options(const CLI::App& app) {
 
 int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
                   const std::string& filter, Border border, const std::string& output, Console& console) {
-  if (arguments.span_error != 0 && !(arguments.span_error > 0 && arguments.span_error <= 1000)) {
-    throw Error(ErrorKind::usage, "--span-error",
-                fmt::format("{} pixels; it must be above 0, at most 1000", arguments.span_error));
-  }
   if (arguments.span_error > 0 && arguments.reseed > 0) {
     throw Error(ErrorKind::usage, "--span-error", "chooses --reseed; give one of the two");
   }
   ViewOptions options;
   options.stepping = {{span_method_of(arguments.span), arguments.reseed},
-                      precision_of(arguments.precision),
+                      arguments.precision == "f64" ? SpanPrecision::f64 : SpanPrecision::f32,
                       arguments.span_error};
   options.filter = view_filter_of(filter);
   options.border = border;

@@ -2,6 +2,7 @@
 #include "bake_samples.h"
 #include "jobs.h"
 #include "output_file.h"
+#include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/error/error.h"
@@ -233,13 +234,13 @@ Action declare_bake(CLI::App& app) {
   }
   app.add_option("--encoding", arguments->encoding,
                  "how color samples are encoded; as their file says unless given")
-      ->check(CLI::IsMember({"srgb", "linear"}).description(""))
+      ->check(one_of("srgb|linear"))
       ->type_name("srgb|linear");
   app.add_option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
       ->type_name("FILE");
   app.add_option("--report-format", arguments->report_format,
                  "of the summary or the list of presets on stdout")
-      ->check(CLI::IsMember({"text", "json"}).description(""))
+      ->check(one_of("text|json"))
       ->type_name("text|json");
   app.add_option("--report", arguments->report,
                  "also write a page: tiles, cuts and sources drawn, figures, what to change")

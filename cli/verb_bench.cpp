@@ -1,6 +1,7 @@
 #include "bench_lookups.h"
 #include "bench_spans.h"
 #include "jobs.h"
+#include "value_check.h"
 #include "verb.h"
 
 #include <memory>
@@ -30,7 +31,8 @@ int run_bench(const BenchArguments& a, Console& console) {
 Action declare_bench(CLI::App& app) {
   auto a = std::make_shared<BenchArguments>();
   LookupBenchArguments& of = a->of_lookups;
-  app.add_option("PACK", of.pack, "folder of a pack, or its pack.json; --spans can do without");
+  app.add_option("PACK", of.pack, "folder of a pack, or its pack.json; --spans can do without")
+      ->type_name("");
   app.add_flag(
       "--spans", a->spans,
       "instead, the span methods of perspective views: error in pixels and texels against ns a pixel");
@@ -38,11 +40,11 @@ Action declare_bench(CLI::App& app) {
   app.add_option("--report", of.report, "also write a page with tables and plots")->type_name("FILE.html");
   app.add_option("--format", of.format, "text (default), json, or for lookups csv")->type_name("NAME");
   app.add_option("--rounds", of.rounds, "lookups: medians are taken over so many, 1 to 1000 (default 9)")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number(1, 1000))
       ->type_name("N");
   app.add_option("--lookups", of.lookups,
                  "places a zone and level for the errors of mips, 16 to 1000000 (default 4096)")
-      ->check(CLI::Range(16, 1000000))
+      ->check(whole_number(16, 1000000))
       ->type_name("N");
   app.add_flag("--quick", of.quick,
                "one rough round of timing, for a first look; nothing is compared with OpenImageIO");

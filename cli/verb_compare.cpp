@@ -1,4 +1,5 @@
 #include "output_file.h"
+#include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
@@ -7,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -71,36 +71,27 @@ int run_compare(const CompareArguments& arguments, Console& console) {
   return 0;
 }
 
-// CLI11's own would write out the largest double.
-CLI::Validator range_check(double lowest, double highest, const std::string& allowed) {
-  return CLI::Validator(
-      [=](const std::string& text) {
-        double value = 0;
-        const bool good = CLI::detail::lexical_cast(text, value) && value >= lowest && value <= highest;
-        return good ? std::string() : fmt::format("'{}' is not allowed; it must be {}", text, allowed);
-      },
-      "");
-}
-
 Action declare_compare(CLI::App& app) {
   auto arguments = std::make_shared<CompareArguments>();
   app.add_option("A", arguments->a, "image, or pack (folder or pack.json)")->required()->type_name("");
   app.add_option("B", arguments->b, "of the same kind")->required()->type_name("");
   app.add_option("--format", arguments->format, "of the report on stdout")
-      ->check(CLI::IsMember({"text", "json"}).description(""))
+      ->check(one_of("text|json"))
       ->type_name("text|json");
   app.add_option("--max-difference", arguments->limits.max_difference,
                  "alike if no value differs by more: 1/255 for integer images, plain for float")
-      ->check(range_check(0, HUGE_VAL, "0 or more"))
+      ->check(number(0, 1e38))
       ->type_name("N");
-  app.add_option("--min-psnr", arguments->limits.min_psnr, "alike from this PSNR on, in dB")->type_name("DB");
-  app.add_option("--min-ssim", arguments->limits.min_ssim, "alike from this SSIM on")
-      ->check(CLI::Range(-1.0, 1.0))
+  app.add_option("--min-psnr", arguments->limits.min_psnr, "alike from this PSNR on, in dB, -1000 to 1000")
+      ->check(number(-1000, 1000, " dB"))
+      ->type_name("DB");
+  app.add_option("--min-ssim", arguments->limits.min_ssim, "alike from this SSIM on, -1 to 1")
+      ->check(number(-1, 1))
       ->type_name("S");
   app.add_option("--picture", arguments->picture, "write the difference, magnified, as a PNG")
       ->type_name("FILE.png");
   app.add_option("--gain", arguments->gain, "how much the picture magnifies, 0.001 to 1000; 8 unless given")
-      ->check(range_check(0.001, 1000, "a number of 0.001 to 1000"))
+      ->check(number(0.001, 1000))
       ->type_name("N");
   return [arguments](Console& console) { return run_compare(*arguments, console); };
 }

@@ -1,5 +1,6 @@
 #include "inspect_mapping.h"
 #include "output_file.h"
+#include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/error/nearest_name.h"
@@ -108,7 +109,7 @@ Action declare_inspect(CLI::App& app) {
   auto arguments = std::make_shared<InspectArguments>();
   app.add_option("PACK", arguments->pack, "folder or pack.json")->required()->type_name("");
   app.add_option("--format", arguments->format, "of the summary on stdout")
-      ->check(CLI::IsMember({"text", "json"}).description(""))
+      ->check(one_of("text|json"))
       ->type_name("text|json");
   app.add_option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
       ->type_name("FILE.png|.svg");
@@ -119,17 +120,18 @@ Action declare_inspect(CLI::App& app) {
   app.add_option("--preview", arguments->preview,
                  "draw a piece of the virtual texture with its colors and ids")
       ->type_name("FILE.png|.svg");
-  app.add_option("--tiles", arguments->tiles, "tiles a side of the preview; 8 unless given")
-      ->check(CLI::Range(1, 64))
+  app.add_option("--tiles", arguments->tiles, "tiles a side of the preview, 1 to 64; 8 unless given")
+      ->check(whole_number(1, 64))
       ->type_name("N");
   app.add_option("--map", arguments->map, "the map drawn and measured; the first unless given")
       ->type_name("NAME");
   app.add_option("--level", arguments->level,
                  "the level drawn; the finest that fits 4096 pixels unless given")
-      ->check(CLI::Range(0, 30))
+      ->check(whole_number(0, 30))
       ->type_name("L");
-  app.add_option("--worst", arguments->worst, "how many of the worst borders are listed; 3 unless given")
-      ->check(CLI::Range(0, 1000))
+  app.add_option("--worst", arguments->worst,
+                 "how many of the worst borders are listed, 0 to 1000; 3 unless given")
+      ->check(whole_number(0, 1000))
       ->type_name("N");
   app.add_flag("--bare", arguments->bare, "draw without colors and ids");
   app.add_flag("--mapping", arguments->mapping,

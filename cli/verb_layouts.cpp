@@ -1,3 +1,4 @@
+#include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
@@ -148,22 +149,23 @@ int run_layouts(const LayoutsArguments& arguments, Console& console) {
 Action declare_layouts(CLI::App& app) {
   auto arguments = std::make_shared<LayoutsArguments>();
   app.add_option("--tiles", arguments->tiles, "advice for this many tiles, 1 to 65535")
-      ->check(CLI::Range(1, max_rotated_tiles - 1))
+      ->check(whole_number(1, max_rotated_tiles - 1))
       ->type_name("N");
   app.add_option("--up-to", arguments->up_to, "largest tile count of the table, 1 to 4096")
-      ->check(CLI::Range(1, 4096))
+      ->check(whole_number(1, 4096))
       ->type_name("N");
   app.add_option("--tile-size", arguments->tile_side, "side of a tile in texels, 1 to 4096")
-      ->check(CLI::Range(1, 4096))
+      ->check(whole_number(1, 4096))
       ->type_name("N");
   app.add_option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side")
+      ->check(whole_number(0, 4096, ", and at most the tile's side"))
       ->type_name("N");
   app.add_option("--sample", arguments->sample,
                  "with --tiles: measure what turning loses on windows of this image")
       ->type_name("IMAGE");
   app.add_flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
   app.add_option("--format", arguments->format, "of the table")
-      ->check(CLI::IsMember({"text", "json"}).description(""))
+      ->check(one_of("text|json"))
       ->type_name("text|json");
   return [arguments](Console& console) { return run_layouts(*arguments, console); };
 }

@@ -1,6 +1,7 @@
 #include "bake_report.h"
 #include "jobs.h"
 #include "output_file.h"
+#include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/error/error.h"
@@ -126,11 +127,11 @@ Action declare_pack(CLI::App& app) {
       ->required();
   app.add_option("--name", arguments->name, "of the map in the pack")->type_name("NAME");
   app.add_option("--role", arguments->role, "what the values mean")
-      ->check(CLI::IsMember({"color", "normal", "roughness", "height", "data"}).description(""))
+      ->check(one_of("color|normal|roughness|height|data"))
       ->type_name("ROLE");
   app.add_option("--tolerance", arguments->tolerance,
-                 "by how much borders of one color may differ, in parts of full scale")
-      ->check(CLI::Range(0.0, 1.0))
+                 "by how much borders of one color may differ, in parts of full scale, 0 to 1")
+      ->check(number(0, 1))
       ->type_name("X");
   for (const BakeField& field : bake_fields()) {
     if (!is_packing_field(field.name)) continue;
@@ -145,7 +146,7 @@ Action declare_pack(CLI::App& app) {
       app.add_option_function<std::string>("--" + field.name, store, field.help)->type_name(field.value);
   }
   app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
-      ->check(CLI::IsMember({"text", "json"}).description(""))
+      ->check(one_of("text|json"))
       ->type_name("text|json");
   add_jobs_option(app, arguments->jobs);
   return [arguments](Console& console) { return run_pack(*arguments, console); };

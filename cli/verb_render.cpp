@@ -1,6 +1,7 @@
 #include "jobs.h"
 #include "output_file.h"
 #include "render_camera.h"
+#include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
@@ -145,7 +146,7 @@ int run_render(const RenderArguments& arguments, Console& console) {
   const int levels = static_cast<int>(packed.levels.size());
   if (arguments.level < 0 || arguments.level >= levels)
     throw Error(ErrorKind::usage, "--level",
-                fmt::format("{}; the pack has levels 0..{}", arguments.level, levels - 1));
+                fmt::format("{}; the pack has levels 0 to {}", arguments.level, levels - 1));
   const RenderTarget target = target_for(arguments.output, packed, arguments.encoding);
 
   View view{rect ? *rect : default_rect(pack, arguments.level), arguments.level, arguments.scale, filter};
@@ -171,7 +172,7 @@ int run_render(const RenderArguments& arguments, Console& console) {
 
 Action declare_render(CLI::App& app) {
   auto a = std::make_shared<RenderArguments>();
-  app.add_option("PACK", a->pack, "folder of a pack, or its pack.json")->required();
+  app.add_option("PACK", a->pack, "folder of a pack, or its pack.json")->required()->type_name("");
   app.add_option("-o,--output", a->output,
                  "picture to write, .png or .exr; the depth of the map is kept if the format has it")
       ->required()
@@ -181,7 +182,9 @@ Action declare_render(CLI::App& app) {
          "--rect", a->rect,
          "window in texels of the level, anywhere, also beyond the border (default: the first 8 x 8 tiles)")
       ->type_name("X,Y,W,H");
-  app.add_option("--level", a->level, "mip level, 0 the finest (default 0)")->type_name("L");
+  app.add_option("--level", a->level, "mip level, 0 the finest (default 0)")
+      ->check(whole_number(0, 30))
+      ->type_name("L");
   app.add_option(
          "--filter", a->filter,
          "nearest, bilinear, trilinear, which reads the level that fits the scale (default), or elliptical, "
@@ -193,12 +196,13 @@ Action declare_render(CLI::App& app) {
       ->type_name("NAME");
   app.add_option("--scale", a->scale,
                  "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")
+      ->check(positive_number(max_render_side, " (1: a pixel a texel)"))
       ->type_name("S");
   app.add_option(
          "--corner-width", a->corner_width,
          "how far round tile corners a corner pack is blended in, in texels of the level, 0 (not at all) "
          "to 4096, cut to what the pack allows (default 4)")
-      ->check(CLI::Range(0.0, 4096.0))
+      ->check(number(0, 4096))
       ->type_name("W");
   app.add_option("--encoding", a->encoding,
                  "srgb or linear (default: that of the map; in EXR linear, in PNG of float color srgb)")

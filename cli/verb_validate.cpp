@@ -1,4 +1,5 @@
 #include "jobs.h"
+#include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/pack/pack_read.h"
@@ -59,14 +60,14 @@ Action declare_validate(CLI::App& app) {
   auto arguments = std::make_shared<ValidateArguments>();
   app.add_option("PACK", arguments->pack, "folder or pack.json")->type_name("");
   app.add_option("--format", arguments->format, "of the report on stdout")
-      ->check(CLI::IsMember({"text", "json", "csv"}).description(""))
+      ->check(one_of("text|json|csv"))
       ->type_name("text|json|csv");
   app.add_flag(
       "--against-reference", arguments->against_reference,
       "also hold bilinear lookups against the virtual texture's true mips, level by level: inside tiles, "
       "across edges, at corners");
   app.add_option("--lookups", arguments->lookups, "places a zone and level, 16 to 1000000 (default 4096)")
-      ->check(CLI::Range(16, 1000000))
+      ->check(whole_number(16, 1000000))
       ->type_name("N");
   app.add_flag("--list-rules", arguments->list_rules, "show every rule with its number and end");
   add_jobs_option(app, arguments->jobs);

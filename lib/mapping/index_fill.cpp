@@ -182,7 +182,7 @@ Mapping filled_index_mapping(VirtualSize size, const TileColors& tiles, std::uin
   if (size.width < 1 || size.height < 1 || size.width > longest_side || size.height > longest_side ||
       size.width * size.height > most_cells)
     throw Error(
-        ErrorKind::usage, "virtual size",
+        ErrorKind::usage, "--virtual-size",
         fmt::format("{}x{} tiles can't be an index map; each side must be 1 to {}, and there may be {} "
                     "cells in all",
                     size.width, size.height, longest_side, most_cells));

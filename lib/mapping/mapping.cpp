@@ -22,7 +22,7 @@ constexpr std::int64_t most_index_cells = std::int64_t{1} << 26;
 
 void check_size(VirtualSize size, std::int64_t longest, const char* way_out) {
   if (size.width < 1 || size.height < 1 || size.width > longest || size.height > longest)
-    throw Error(ErrorKind::usage, "virtual size",
+    throw Error(ErrorKind::usage, "--virtual-size",
                 fmt::format("{}x{} tiles is out of range; each side must be 1 to {}{}", size.width,
                             size.height, longest, way_out));
 }
@@ -117,7 +117,7 @@ Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed) {
   check_size(size, longest_side, "");
   if (!has_even_pattern(corners))
     throw Error(
-        ErrorKind::usage, "mapping",
+        ErrorKind::usage, "--mapping",
         fmt::format("'even' has patterns for 2 to 4 corner colors, not for {}; take the mapping \"mix\"",
                     corners == 0 ? std::string("edge colors") : std::to_string(corners)));
   Mapping mapping;
@@ -131,7 +131,7 @@ Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed) {
 Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors) {
   check_size(mapping.size, longest_side, "");
   if (mapping.size.width > most_index_cells / mapping.size.height)
-    throw Error(ErrorKind::usage, "virtual size",
+    throw Error(ErrorKind::usage, "--virtual-size",
                 fmt::format("an index map of {}x{} tiles is too large to store; up to {} cells are, or take "
                             "the mapping \"mix\"",
                             mapping.size.width, mapping.size.height, most_index_cells));

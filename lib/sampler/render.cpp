@@ -14,25 +14,25 @@
 namespace tilepack {
 namespace {
 
-int output_side(int texels, double scale, const char* name) {
+int output_side(int texels, double scale, const char* way) {
   const double side = std::max(1.0, std::floor(texels * scale + 0.5));
   if (side > max_render_side)
-    throw Error(ErrorKind::usage, name,
-                std::to_string(static_cast<std::int64_t>(std::min(side, 1e18))) +
-                    " pixels; a picture's side may be 1.." + std::to_string(max_render_side) +
-                    ": take a smaller window or scale, or a coarser level");
+    throw Error(ErrorKind::usage, "",
+                "the picture would be " + std::to_string(static_cast<std::int64_t>(std::min(side, 1e18))) +
+                    " pixels " + way + "; at most " + std::to_string(max_render_side) +
+                    " are: take a smaller --rect or --scale, or a coarser --level");
   return static_cast<int>(side);
 }
 
 const PackedMap& map_of(const Pack& pack, int map, int level) {
   const int maps = static_cast<int>(pack.maps.size());
   if (map < 0 || map >= maps)
-    throw Error(ErrorKind::usage, "map",
+    throw Error(ErrorKind::usage, "--map",
                 std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
   const PackedMap& result = pack.maps[static_cast<std::size_t>(map)];
   const int levels = static_cast<int>(result.levels.size());
   if (level < 0 || level >= levels)
-    throw Error(ErrorKind::usage, "level",
+    throw Error(ErrorKind::usage, "--level",
                 std::to_string(level) + " is not stored; the pack has levels 0.." +
                     std::to_string(levels - 1));
   return result;
@@ -63,14 +63,14 @@ void renormalise(std::span<double> normal) {
 
 Size output_size(const View& view) {
   if (view.rect.width < 1 || view.rect.height < 1)
-    throw Error(ErrorKind::usage, "rect",
+    throw Error(ErrorKind::usage, "--rect",
                 std::to_string(view.rect.width) + " x " + std::to_string(view.rect.height) +
                     " texels; both sides must be at least 1");
   if (!(view.scale > 0) || !std::isfinite(view.scale))
-    throw Error(ErrorKind::usage, "scale",
+    throw Error(ErrorKind::usage, "--scale",
                 std::to_string(view.scale) + "; it must be a number above 0 (1: a pixel a texel)");
-  return {output_side(view.rect.width, view.scale, "width"),
-          output_side(view.rect.height, view.scale, "height")};
+  return {output_side(view.rect.width, view.scale, "wide"),
+          output_side(view.rect.height, view.scale, "high")};
 }
 
 Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, const RenderTarget& of_target)

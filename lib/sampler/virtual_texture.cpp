@@ -51,7 +51,7 @@ void copy_bordered_row(const Pack& pack, const std::vector<Image>& tiles, const 
 
 Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect, Border border) {
   if (rect.width < 1 || rect.height < 1)
-    throw Error(ErrorKind::usage, "rect",
+    throw Error(ErrorKind::usage, "--rect",
                 std::to_string(rect.width) + " x " + std::to_string(rect.height) +
                     " texels; both sides must be at least 1");
   Image result(rect.width, rect.height, tiles.at(0).channels());
@@ -69,11 +69,11 @@ Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, Virtual
 Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect) {
   const int maps = static_cast<int>(pack.maps.size());
   if (map < 0 || map >= maps)
-    throw Error(ErrorKind::usage, "map",
+    throw Error(ErrorKind::usage, "--map",
                 std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
   const auto& levels = pack.maps[static_cast<std::size_t>(map)].levels;
   if (level < 0 || level >= static_cast<int>(levels.size()))
-    throw Error(ErrorKind::usage, "level",
+    throw Error(ErrorKind::usage, "--level",
                 std::to_string(level) + " is not stored; the pack has levels 0.." +
                     std::to_string(levels.size() - 1));
   return virtual_texture(

@@ -158,9 +158,9 @@ SpanMethod span_method_of(const std::string& name) {
   for (const auto& each : names) known += (known.empty() ? "" : ", ") + std::string(each);
   const std::vector<std::string> list(names.begin(), names.end());
   const std::string near = nearest_name(name, list);
-  throw Error(ErrorKind::usage, "span method",
-              "'" + name + "' is unknown; " + (near.empty() ? "" : "did you mean '" + near + "'? ") +
-                  "Known: " + known);
+  throw Error(ErrorKind::usage, "--span",
+              "'" + name + "' is no method" + (near.empty() ? "" : ", did you mean '" + near + "'?") +
+                  "; there are " + known);
 }
 
 double method_bound(SpanMethod method, double distance, int steps) {
@@ -234,7 +234,7 @@ double estimated_reciprocal(double x) {
 
 void check_reseed(const SpanOptions& options) {
   if (options.reseed >= 0 && options.reseed <= max_span_pixels) return;
-  throw Error(ErrorKind::usage, "reseed",
+  throw Error(ErrorKind::usage, "--reseed",
               std::to_string(options.reseed) + " is out of range; give 1 to " +
                   std::to_string(max_span_pixels) + " pixels, or 0 for the first pixel only");
 }

@@ -28,9 +28,11 @@ ViewRenderer::ViewRenderer(const Pack& pack, int map, const Scene& of_scene, con
   const bool finite = std::all_of(options.background.begin(), options.background.end(),
                                   [](float value) { return std::isfinite(value); });
   if (options.background.size() != count || !finite) {
-    throw Error(ErrorKind::usage, "background",
-                std::to_string(options.background.size()) + " values" + (finite ? "" : ", not all finite") +
-                    "; the map has " + std::to_string(count) + " channels, and each needs a finite one");
+    throw Error(ErrorKind::usage, "--background",
+                std::to_string(options.background.size()) +
+                    (options.background.size() == 1 ? " value" : " values") +
+                    (finite ? "" : ", not all finite") + "; the map has " + std::to_string(count) +
+                    " channels, and each needs a finite one");
   }
 }
 

@@ -76,7 +76,7 @@ ViewFilter view_filter_of(const std::string& name) {
   for (ViewFilter filter : {ViewFilter::trilinear, ViewFilter::anisotropic, ViewFilter::elliptical}) {
     if (name == name_of(filter)) return filter;
   }
-  throw Error(ErrorKind::usage, "filter",
+  throw Error(ErrorKind::usage, "--filter",
               "'" + name + "' is no filter of camera views; there are trilinear, anisotropic and elliptical");
 }
 

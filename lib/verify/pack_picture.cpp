@@ -72,7 +72,7 @@ void draw_label(Drawing& drawing, int tile, const TileFrame& f) {
 
 const PackedMap& map_of(const Pack& pack, const PackPictureOptions& options) {
   if (options.map >= 0 && options.map < static_cast<int>(pack.maps.size())) return pack.maps[options.map];
-  throw Error(ErrorKind::usage, "map",
+  throw Error(ErrorKind::usage, "--map",
               fmt::format("{} is not 0 to {}, the maps of the pack", options.map, pack.maps.size() - 1));
 }
 
@@ -82,7 +82,7 @@ int level_of(const PackedMap& map, std::int64_t width, std::int64_t height,
   const int levels = static_cast<int>(map.levels.size());
   if (options.level) {
     if (*options.level >= 0 && *options.level < levels) return *options.level;
-    throw Error(ErrorKind::usage, "level",
+    throw Error(ErrorKind::usage, "--level",
                 fmt::format("{} is not 0 to {}, the levels of map {}", *options.level, levels - 1, map.name));
   }
   int level = 0;
@@ -320,7 +320,7 @@ Drawing pack_picture(const Pack& pack, const PackPictureOptions& options) {
 Drawing corner_picture(const Pack& pack, const PackPictureOptions& options) {
   map_of(pack, options);
   if (!pack.corner_pack)
-    throw Error(ErrorKind::usage, "corner pack", "the pack has none; bake it with --corner-pack");
+    throw Error(ErrorKind::usage, "--corner-picture", "the pack has none; bake it with --corner-pack");
   const CornerPack& corners = *pack.corner_pack;
   const PackedMap& map = corners.maps[static_cast<std::size_t>(options.map)];
   const int level = level_of(map, std::int64_t{corners.columns} * pack.tile_size.width,
