@@ -14,8 +14,6 @@ void note_signal(int signal) {
   signal_received = signal;
 }
 
-} // namespace
-
 void watch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     // A program started with the signal ignored (nohup, a background job) keeps ignoring it.
@@ -24,6 +22,12 @@ void watch_interrupts() {
   // A file past the limit of `ulimit -f` is then a failed write like any other, with its message.
   std::signal(SIGXFSZ, SIG_IGN);
 }
+
+// Before main and before the libraries set themselves up, which takes longer than loading them: so that a
+// Ctrl-C as early as that is answered too.
+[[gnu::used, gnu::section(".preinit_array")]] void (*const at_start)() = watch_interrupts;
+
+} // namespace
 
 bool interrupted() {
   return signal_received != 0;

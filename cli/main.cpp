@@ -92,6 +92,7 @@ int run_verb(const Verb& verb, std::vector<std::string> arguments, Console& cons
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::usage, "", explained(app, error));
   }
+  if (interrupted()) throw Interrupted();
   return action(console);
 }
 
@@ -137,7 +138,6 @@ int guarded_run(const std::vector<std::string>& arguments) {
 } // namespace tilepack::cli
 
 int main(int argc, char** argv) {
-  tilepack::cli::watch_interrupts();
   const int code = tilepack::cli::guarded_run({argv + 1, argv + argc});
   if (code < 0) tilepack::cli::end_by_signal();
   return code;
