@@ -54,7 +54,7 @@ const Verb& verb_named(const std::string& name) {
 
 // CLI11 reports a missing argument before an unknown option; but what it could not place tells more, since a
 // mistyped option is what leaves arguments out of place.
-std::string explained(const CLI::App& app, const CLI::ParseError& error) {
+std::string explained(const Verb& verb, const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> extras = app.remaining();
   const auto flag = std::find_if(extras.begin(), extras.end(), [](const std::string& argument) {
     return argument.size() > 1 && argument.front() == '-';
@@ -66,7 +66,7 @@ std::string explained(const CLI::App& app, const CLI::ParseError& error) {
     const std::string name = flag->substr(0, flag->find('='));
     return fmt::format("unknown option '{}'{}", name, suggestion(name, known));
   }
-  if (!extras.empty()) return fmt::format("unexpected argument '{}'", extras.front());
+  if (!extras.empty()) return fmt::format("unexpected argument '{}'{}", extras.front(), verb.more);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     const std::string what = error.what(); // "--report: 1 required FILE.html missing"
     const std::string name = what.substr(0, what.find(':'));
@@ -90,7 +90,7 @@ int run_verb(const Verb& verb, std::vector<std::string> arguments, Console& cons
     console.print(app.help());
     return 0;
   } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::usage, "", explained(app, error));
+    throw Error(ErrorKind::usage, "", explained(verb, app, error));
   }
   if (interrupted()) throw Interrupted();
   return action(console);

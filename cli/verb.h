@@ -24,6 +24,8 @@ struct Verb {
   /// Declares positionals and options on `app`, and returns what runs after parsing. Values live in state
   /// that the returned action owns (a shared_ptr captured by both). --help and --quiet are there already.
   Action (*declare)(CLI::App& app);
+
+  std::string more = {}; ///< the way out when there are more arguments than positionals
 };
 
 Verb bake_verb();

@@ -1,3 +1,4 @@
+#include "bake_field_options.h"
 #include "bake_report.h"
 #include "bake_samples.h"
 #include "jobs.h"
@@ -221,17 +222,7 @@ Action declare_bake(CLI::App& app) {
                  "options from a built-in preset or a JSON file; flags override it")
       ->type_name("NAME|FILE");
   app.add_flag("--list-presets", arguments->list_presets, "show the built-in presets and end");
-  for (const BakeField& field : bake_fields()) {
-    const auto store = [arguments, name = field.name](const std::string& value) {
-      arguments->fields[name] = value;
-    };
-    if (field.type == BakeFieldType::flag)
-      app.add_flag_function(
-          fmt::format("--{0},!--no-{0}", field.name),
-          [store](std::int64_t count) { store(count > 0 ? "true" : "false"); }, field.help);
-    else
-      app.add_option_function<std::string>("--" + field.name, store, field.help)->type_name(field.value);
-  }
+  for (const BakeField& field : bake_fields()) add_field_option(app, field, arguments->fields);
   app.add_option("--encoding", arguments->encoding,
                  "how color samples are encoded; as their file says unless given")
       ->check(one_of("srgb|linear"))
@@ -257,7 +248,7 @@ Verb bake_verb() {
           "  tilepack bake rock.png -o rock.pack --map normal=rock_normal.png --preset terrain --seed 7\n"
           "  tilepack bake gravel.png -o gravel.pack --report gravel.html\n"
           "  tilepack bake materials/rock -o rock.pack\n",
-          declare_bake};
+          declare_bake, "; further maps of the material go by --map ROLE=FILE"};
 }
 
 } // namespace tilepack::cli

@@ -1,3 +1,4 @@
+#include "bake_field_options.h"
 #include "bake_report.h"
 #include "jobs.h"
 #include "output_file.h"
@@ -134,16 +135,7 @@ Action declare_pack(CLI::App& app) {
       ->check(number(0, 1))
       ->type_name("X");
   for (const BakeField& field : bake_fields()) {
-    if (!is_packing_field(field.name)) continue;
-    const auto store = [arguments, name = field.name](const std::string& value) {
-      arguments->fields[name] = value;
-    };
-    if (field.type == BakeFieldType::flag)
-      app.add_flag_function(
-          fmt::format("--{0},!--no-{0}", field.name),
-          [store](std::int64_t count) { store(count > 0 ? "true" : "false"); }, field.help);
-    else
-      app.add_option_function<std::string>("--" + field.name, store, field.help)->type_name(field.value);
+    if (is_packing_field(field.name)) add_field_option(app, field, arguments->fields);
   }
   app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
       ->check(one_of("text|json"))

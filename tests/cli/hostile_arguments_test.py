@@ -17,7 +17,8 @@ class Arguments(CommandCase):
 
     def test_flags(self):
         self.refused("bake", "a.png", "-o", "out", "--colours", 2, code=USAGE, saying="did you mean '--colors'?")
-        self.refused("bake", "a.png", "b.png", "-o", "out", code=USAGE, saying="unexpected argument 'b.png'")
+        self.refused("bake", "a.png", "b.png", "-o", "out", code=USAGE,
+                     saying=("unexpected argument 'b.png'", "--map ROLE=FILE"))
         self.refused("bake", "a.png", code=USAGE, saying="--output is required")
         self.refused("bake", "-o", "out", code=USAGE, saying="SAMPLE is required")
         self.refused("bake", "a.png", "-o", "out", "--seed", code=USAGE, saying="write --seed N")
@@ -44,6 +45,14 @@ class Arguments(CommandCase):
         for flag, value in (("--gain", "0"), ("--gain", "nan"), ("--max-difference", "-1"), ("--max-difference", "x")):
             message = self.refused("compare", sample, sample, flag, value, code=USAGE, saying=(flag, f"'{value}'"))
             self.assertLess(len(message), 120)
+
+    def test_the_format_of_images_is_not_that_of_the_summary(self):
+        for arguments in (("bake", "a.png", "-o", "out"), ("bake", "--list-presets"),
+                          ("pack", "a.png", "-o", "out", "--colors", "colors.json")):
+            for word in ("json", "text"):
+                with self.subTest(arguments, word=word):
+                    self.refused(*arguments, "--format", word, code=USAGE,
+                                 saying=(f"--format: '{word}' is not allowed", "png|exr", f"--report-format {word}"))
 
     def test_values_that_contradict_each_other(self):
         sample = self.noise_png("sample.png")
