@@ -72,4 +72,15 @@ std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::op
   return maps;
 }
 
+std::string doubt_about_color(const SampleMap& map, std::optional<Encoding> asked) {
+  const std::optional<MaterialFile> named = map_by_name(map.file);
+  if (map.role != Role::color || !named || named->role == Role::color || asked) return "";
+  const std::string role(name_of(named->role));
+  return fmt::format("{0} is taken as {1} color, though its name says {2}: beside its color map it goes as "
+                     "--map {3}={0}{4}",
+                     map.file, map.encoding == Encoding::srgb ? "an sRGB" : "a linear", named->name,
+                     role == named->name ? role : named->name + ":" + role,
+                     map.encoding == Encoding::srgb ? "; alone, --encoding linear takes plain values" : "");
+}
+
 } // namespace tilepack::cli

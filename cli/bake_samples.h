@@ -20,4 +20,8 @@ MaterialFile parsed_map_option(const std::string& option);
 /// others are plain values.
 std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::optional<Encoding> asked);
 
+/// A line for the user if SAMPLE, read as `map`, is a color only because nothing else was said, while its
+/// name says that it is another map; else empty.
+std::string doubt_about_color(const SampleMap& map, std::optional<Encoding> asked);
+
 } // namespace tilepack::cli

@@ -179,6 +179,7 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   const Progress progress = clock.around(console.progress());
   report(progress, "reading", 0.0);
   const std::vector<SampleMap> samples = read_samples(files, asked);
+  if (const std::string doubt = doubt_about_color(samples[0], asked); !doubt.empty()) console.note(doubt);
   const double read_seconds = watch.lap();
   const BakedPack made = baked(samples, options, progress);
   const double bake_seconds = watch.lap();

@@ -164,4 +164,10 @@ std::vector<MaterialFile> material_files(std::span<const std::string> file_names
   return files;
 }
 
+std::optional<MaterialFile> map_by_name(const std::string& file) {
+  const auto found = recognised(std::string_view(file).substr(file.rfind('/') + 1));
+  if (!found) return std::nullopt;
+  return MaterialFile{std::string(found->ending->name), found->ending->role, file};
+}
+
 } // namespace tilepack

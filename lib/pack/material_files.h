@@ -2,6 +2,7 @@
 
 #include "tilepack/tileset/map.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,5 +33,8 @@ struct MaterialFile {
 /// (all are named). `folder` is how messages name the place.
 std::vector<MaterialFile> material_files(std::span<const std::string> file_names, const std::string& prefix,
                                          const std::string& folder);
+
+/// The map that such an ending says this file is; none if it has none.
+std::optional<MaterialFile> map_by_name(const std::string& file);
 
 } // namespace tilepack

@@ -199,6 +199,19 @@ class Bake(CommandCase):
         os.utime(self.path(sample), (2**31, 2**31))
         self.assertEqual(make().stdout, "rebuilt\n")
 
+    def test_another_map_by_its_name_is_told_to_be_taken_as_color(self):
+        for name, word, way in (("rock_height.png", "an sRGB color", "--map height=rock_height.png"),
+                                ("rock_ao.png", "an sRGB color", "--map ao:data=rock_ao.png")):
+            lines = self.bake(sample=self.noise_png(name)).stderr.splitlines()
+            self.assertEqual(len(lines), 2)
+            for text in (name, word, way, "--encoding linear"):
+                self.assertIn(text, lines[0])
+            for arguments in (("--quiet",), ("--encoding", "linear"), ("--encoding", "srgb")):
+                self.assertNotIn("--map", self.bake(*arguments, sample=name).stderr)
+        self.noise_png("rock_albedo.png")
+        self.assertNotIn("--map", self.bake("--map", "height=rock_height.png", "--map", "ao:data=rock_ao.png",
+                                            sample="rock_albedo.png").stderr)
+
     def test_quiet_and_no_terminal_mean_no_progress(self):
         self.assertEqual(self.bake("--quiet").stderr, "")
         self.assertEqual(len(self.bake().stderr.splitlines()), 1)

@@ -62,6 +62,14 @@ TEST_CASE("the habits of different libraries are known", "[pack]") {
         List{"color:color:albedo.png", "normal:normal:normal.png"});
 }
 
+TEST_CASE("a file says by its name which map it is", "[pack]") {
+  CHECK(map_by_name("maps/rock_Height.png") == MaterialFile{"height", Role::height, "maps/rock_Height.png"});
+  CHECK(map_by_name("rock_ao_2k.jpg") == MaterialFile{"ao", Role::data, "rock_ao_2k.jpg"});
+  CHECK(map_by_name("rock_albedo.png")->role == Role::color);
+  CHECK_FALSE(map_by_name("rock.png"));
+  CHECK_FALSE(map_by_name("rock_height/photo.png"));
+}
+
 TEST_CASE("what is not clear is an error", "[pack]") {
   CHECK_THAT(fault({"rock_normal.png", "photo.png"}), Contains("no color map"));
   CHECK_THAT(fault({}), Contains("no color map"));
