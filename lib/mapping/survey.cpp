@@ -87,13 +87,18 @@ std::vector<SurveyedMapping> mapping_survey(const Mapping& mapping, const ColorC
   const VirtualSize size{std::min<std::int64_t>(mapping.size.width, largest_window),
                          std::min<std::int64_t>(mapping.size.height, largest_window)};
   std::vector<Mapping> mappings{mapping};
+  const auto compare_with = [&](Mapping other) {
+    const Mapping& own = mappings.front();
+    if (other.kind == own.kind && other.seed == own.seed && other.table == own.table) return; // not twice
+    mappings.push_back(std::move(other));
+  };
   std::vector<int> lengths;
   for (int length = 8; length <= 4096; length *= 2) lengths.push_back(length);
   lengths.push_back(static_cast<int>(std::max(size.width, size.height)) + 1);
   std::sort(lengths.begin(), lengths.end());
-  for (const int length : lengths) mappings.push_back(permutation_mapping_of_length(size, length, seed));
-  if (has_even_pattern(colors.corner)) mappings.push_back(even_mapping(size, colors.corner, seed));
-  mappings.push_back(mix_mapping(size, seed));
+  for (const int length : lengths) compare_with(permutation_mapping_of_length(size, length, seed));
+  if (has_even_pattern(colors.corner)) compare_with(even_mapping(size, colors.corner, seed));
+  compare_with(mix_mapping(size, seed));
 
   std::vector<SurveyedMapping> survey;
   for (Mapping& m : mappings) {

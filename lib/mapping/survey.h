@@ -16,7 +16,8 @@ struct SurveyedMapping {
 
 /// The given mapping, then for comparison, over its size or `largest_window` cells a side if that is smaller:
 /// permutations with tables of 8, 16, … 4096 entries and of one entry more than the longer side, an odd
-/// length if the side is even; and the mixing hash.
+/// length if the side is even; the pattern, of 2 to 4 corner colors; and the mixing hash. One that is the
+/// given mapping itself is left out.
 std::vector<SurveyedMapping> mapping_survey(const Mapping& mapping, const ColorCounts& colors,
                                             std::uint64_t seed, int largest_window = 256);
 

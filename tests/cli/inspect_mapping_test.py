@@ -21,6 +21,9 @@ class InspectMapping(CommandCase):
         report = self.report()
         self.assertEqual(report["window"], [64, 64])
         self.assertEqual(report["mappings"][0]["faults"], [])
+        names = [each["name"] for each in report["mappings"]]
+        self.assertEqual((names[0], names[-1]), ("even", "mix"))
+        self.assertEqual(len(names), len(set(names)))
         self.assertIn("no fault found", self.run_tilepack("inspect", "pack", "--mapping").stdout)
 
     def test_tables_of_8_to_4096_entries(self):
