@@ -51,7 +51,7 @@ double shading_of(const FeatureImage& image, Size tile, int channels) {
   if (square.width > image.width || square.height > image.height) return 0.0;
   if ((image.width / square.width) * (image.height / square.height) < 4) return 0.0;
   const Size quarter{std::max(1, square.width / 2), std::max(1, square.height / 2)};
-  return drift_of(image, square, channels) - drift_of(image, quarter, channels) / 4;
+  return std::max(0.0, drift_of(image, square, channels) - drift_of(image, quarter, channels) / 4);
 }
 
 struct Tones {

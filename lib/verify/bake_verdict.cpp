@@ -79,17 +79,19 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
     const Grade grade = off > 0.1 * period.length && mean_cut(facts) > dear_mean ? Grade::poor : Grade::fair;
     const std::string found = fmt::format(
         "The sample repeats every {:.2f} texels along {}, and {} texels are {:.2f} of them: what runs on in "
-        "the sample is cut off at some borders.",
+        "the sample breaks off where parts of it meet.",
         period.length, axis, side, side / period.length);
+    const char* const limit = is_writing(facts) ? " Lines then run on, what they say does not." : "";
     if (fitting != side && misfit(period, fitting) < off)
       add(remarks, grade,
-          fmt::format("{} Bake with --tile-size {}, which --tile-size auto finds{}.", found,
+          fmt::format("{} Bake with --tile-size {}, which --tile-size auto finds{}.{}", found,
                       shown(advice.size),
                       mip_levels(advice.size) < mip_levels(tile)
                           ? fmt::format(" (tiles of that size have {} mip level{}, these {})",
                                         mip_levels(advice.size), mip_levels(advice.size) == 1 ? "" : "s",
                                         mip_levels(tile))
-                          : ""));
+                          : "",
+                      limit));
     else
       add(remarks, grade,
           fmt::format("{} No tile that fits holds whole repeats; a larger sample, or one "
@@ -156,7 +158,7 @@ constexpr double fewest_tiles = 6; // in a sample that gives every tile an insid
 
 // Tones that differ from tile to tile. With tiles of 128 texels, shading is 0.019 to 0.063 in the photos
 // whose tiles can be told by their tone (wood, sand, clouds, boards, a rubble wall, rust) and 0.017 at most
-// in the others (grass 0.017, leaves 0.017, gravel 0.004, brick below 0).
+// in the others (grass 0.017, leaves 0.017, gravel 0.004, brick 0).
 constexpr double much_shading = 0.018;
 constexpr double much_drift = 0.25;
 
@@ -194,8 +196,8 @@ void judge_sample(const BakeFacts& facts, Remarks& remarks) {
   if (is_writing(facts))
     add(remarks, Grade::poor,
         "The sample looks like writing or drawing: two tones in lines. Tiles keep what neighbours "
-        "look like, not what marks mean, and cuts must run through marks; no option changes "
-        "that. Store it as a texture of its own.");
+        "look like, not what marks mean, and cuts must run through marks: no option keeps what "
+        "is written whole. Store it as a texture of its own.");
 }
 
 // More tiles show more only where the sample has more to show than they hold.

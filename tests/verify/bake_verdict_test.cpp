@@ -105,6 +105,9 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
   SECTION("a tile that holds no whole periods") {
     facts.nature.periods.y = {24.0, 0.5};
     CHECK(says(facts, Grade::fair, "every 24.00 texels along y"));
+    CHECK(says(facts, Grade::good, "no border can be told"));
+    CHECK_FALSE(says(facts, Grade::fair, "border")); // what breaks off does so at cuts inside tiles
+    CHECK_FALSE(says(facts, Grade::fair, "Lines then run on"));
     const Size fitting = fitting_tile_size(facts.nature.periods, {128, 128}, facts.sample).size;
     CHECK(fitting.height % 24 == 0);
     CHECK(says(facts, Grade::fair, "--tile-size 128x" + std::to_string(fitting.height)));
@@ -157,6 +160,9 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     facts.nature.ink = 0.15;
     facts.nature.periods.y = {32.0, 0.5};
     CHECK(says(facts, Grade::poor, "looks like writing"));
+    CHECK_FALSE(says(facts, Grade::fair, "Lines then run on"));
+    facts.nature.periods.y = {24.0, 0.5}; // a size fits lines, and what they say all the same gets lost
+    CHECK(says(facts, Grade::fair, "Lines then run on, what they say does not."));
     facts.nature.ink = 0.5; // boards and the gaps between them
     CHECK_FALSE(says(facts, Grade::poor, "looks like writing"));
     facts.nature.ink = 0.15;
