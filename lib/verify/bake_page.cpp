@@ -150,11 +150,22 @@ std::string stages_table(const std::vector<StageShare>& stages) {
   return out + "</table>\n";
 }
 
-std::string options_table(const Generator& generator) {
+// As given or by default; then what was found for those that were left open.
+std::string options_table(const Pack& pack) {
+  const Generator& generator = pack.generator;
   std::string out = "<p><code>";
-  for (const auto& [name, value] : generator.options)
+  std::string found;
+  bool has_mapping = false;
+  for (const auto& [name, value] : generator.options) {
     out += fmt::format("--{} {} ", escaped(name), escaped(value));
-  return out + fmt::format("--seed {}</code>, version {}</p>\n", generator.seed, escaped(generator.version));
+    if (name == "tile-size" && value == "auto")
+      found += fmt::format(" --tile-size {}x{}", pack.tile_size.width, pack.tile_size.height);
+    has_mapping = has_mapping || name == "mapping";
+  }
+  if (!has_mapping) found += fmt::format(" --mapping {}", name_of(pack.mapping.kind));
+  out += fmt::format("--seed {}</code>", generator.seed);
+  if (!found.empty()) out += fmt::format("; chosen: <code>{}</code>", found.substr(1));
+  return out + fmt::format("; version {}</p>\n", escaped(generator.version));
 }
 
 } // namespace
@@ -203,7 +214,7 @@ std::string bake_page(const BakeStory& story, const BakedPack& made, std::span<c
                                    : std::string("<h2>Tiles, those with the dearest cuts first</h2>\n");
   page += tiles_table(report, most_tiles);
   if (!story.stages.empty()) page += "<h2>Where the time went</h2>\n" + stages_table(story.stages);
-  return page + "<h2>Options</h2>\n" + options_table(made.pack.generator) + "</body></html>\n";
+  return page + "<h2>Options</h2>\n" + options_table(made.pack) + "</body></html>\n";
 }
 
 } // namespace tilepack

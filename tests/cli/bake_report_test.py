@@ -49,6 +49,13 @@ class BakeReport(CommandCase):
         self.assertGreaterEqual(len(shares), 2)
         self.assertTrue(80 <= sum(shares) <= 105, shares)  # stages below a hundredth are left out
 
+    def test_options_that_were_left_open_are_told(self):
+        for arguments, chosen in (((), "--mapping even"), (("--mapping", "mix"), ""),
+                                  (("--tile-size", "auto"), r"--tile-size 32x32 --mapping even")):
+            self.bake("--report", "report.html", *arguments)
+            options = self.page().split("<h2>Options</h2>", 1)[1]
+            self.assertEqual("".join(re.findall(r"chosen: <code>(.*?)</code>", options)), chosen)
+
     def test_only_shares_of_time_differ_from_run_to_run(self):
         def bare(name):
             return re.sub(r"<h2>Where the time went.*?</table>", "", self.page(name), flags=re.DOTALL)
