@@ -54,17 +54,31 @@ std::vector<std::string> files_of_pack(const std::string& pack) {
 }
 
 void check_pack_folder_for(const std::string& folder, std::span<const std::string> inputs) {
+  if (const fs::path outer = pack_around(folder); !outer.empty())
+    throw Error(ErrorKind::usage, "--output",
+                fmt::format("'{}' lies in the pack '{}'; choose a folder outside of it", folder,
+                            outer.filename().string()));
   check_pack_folder(folder);
   if (!fs::exists(fs::path(folder) / "pack.json")) return;
   for (const std::string& file : files_of_pack(folder))
     check_outputs(std::vector<OutputFile>{{"--output", file}}, inputs);
 }
 
+std::string without_ending(const std::string& file, const std::string& allowed) {
+  const fs::path path(file);
+  std::error_code fault;
+  if (file.ends_with('/') || fs::is_directory(path, fault))
+    return fmt::format("'{}' is a folder; name a file in it that ends in {}", file, allowed);
+  if (!path.has_extension()) return fmt::format("'{}' has no ending; it must be {}", file, allowed);
+  return fmt::format("'{}' ends in '{}'; it must be {}", file, path.extension().string(), allowed);
+}
+
 void check_page_name(const OutputFile& output) {
   const std::string extension = fs::path(output.file).extension().string();
-  if (output.file.empty() || extension == ".html" || extension == ".htm") return;
-  throw Error(ErrorKind::usage, output.option,
-              fmt::format("'{}' ends in '{}'; the page is written as .html", output.file, extension));
+  std::error_code fault;
+  const bool named = (extension == ".html" || extension == ".htm") && !fs::is_directory(output.file, fault);
+  if (output.file.empty() || named) return;
+  throw Error(ErrorKind::usage, output.option, without_ending(output.file, ".html"));
 }
 
 void check_writable(const std::string& file) {

@@ -22,9 +22,12 @@ void check_outputs(std::span<const OutputFile> outputs, std::span<const std::str
 /// read.
 std::vector<std::string> files_of_pack(const std::string& pack);
 
-/// check_pack_folder, and Error (usage) if `inputs` are among the files of a pack in `folder`, which a new
-/// one replaces.
+/// check_pack_folder, and Error (usage) if `folder` lies in another pack, or `inputs` are among the files of
+/// a pack in `folder`, which a new one replaces.
 void check_pack_folder_for(const std::string& folder, std::span<const std::string> inputs);
+
+/// What is wrong with the name of a file that does not end in one of `allowed`, for a message.
+std::string without_ending(const std::string& file, const std::string& allowed);
 
 /// Throws Error (usage) unless `output` is empty or ends in .html or .htm: a page is nothing else.
 void check_page_name(const OutputFile& output);

@@ -61,20 +61,21 @@ void check_outputs_of(const InspectArguments& a) {
                 files_of_pack(a.pack));
 }
 
-void write_drawing(const std::string& file, const Drawing& drawing) {
+void write_drawing(const OutputFile& output, const Drawing& drawing) {
+  const std::string& file = output.file;
   const std::string extension = fs::path(file).extension().string();
   if (extension == ".svg")
     write_text_file(file, svg(drawing));
   else if (extension == ".png")
     write_image(file, rasterised(drawing), Depth::u8, Encoding::srgb);
   else
-    throw Error(ErrorKind::usage, file, "pictures are written as .png or .svg");
+    throw Error(ErrorKind::usage, output.option, without_ending(file, ".png or .svg"));
 }
 
 int run_inspect_mapping(const InspectArguments& arguments, Console& console) {
   check_outputs_of(arguments);
   const Pack pack = read_pack(arguments.pack);
-  if (!arguments.picture.empty()) write_drawing(arguments.picture, mapping_drawing(pack));
+  if (!arguments.picture.empty()) write_drawing({"--picture", arguments.picture}, mapping_drawing(pack));
   console.print(mapping_report(pack, arguments.format));
   return 0;
 }
@@ -94,12 +95,14 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
                 fmt::format("{}; the pack has levels 0 to {}", *arguments.level, pack.tile_levels - 1));
   options.level = arguments.level;
   options.marks = !arguments.bare;
-  if (!arguments.picture.empty()) write_drawing(arguments.picture, pack_picture(pack, options));
+  if (!arguments.picture.empty())
+    write_drawing({"--picture", arguments.picture}, pack_picture(pack, options));
   if (!arguments.index_map.empty()) write_text_file(arguments.index_map, index_map_json(pack.mapping));
   if (!arguments.corner_picture.empty())
-    write_drawing(arguments.corner_picture, corner_picture(pack, options));
+    write_drawing({"--corner-picture", arguments.corner_picture}, corner_picture(pack, options));
   if (!arguments.preview.empty())
-    write_drawing(arguments.preview, expansion_picture(pack, arguments.tiles, arguments.tiles, options));
+    write_drawing({"--preview", arguments.preview},
+                  expansion_picture(pack, arguments.tiles, arguments.tiles, options));
   summary.seams = seam_figures(pack, options.map, 0, arguments.worst);
   console.print(arguments.format == "json" ? summary_json(summary) : summary_text(summary));
   return 0;

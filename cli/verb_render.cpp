@@ -110,8 +110,7 @@ RenderTarget target_for(const std::string& file, const PackedMap& map, const std
     target.encoding = Encoding::linear;
     if (integers) target.depth = map.depth == Depth::u8 ? Depth::f16 : Depth::f32;
   } else {
-    throw Error(ErrorKind::usage, "-o",
-                fmt::format("'{}' ends in '{}'; pictures are written as .png or .exr", file, extension));
+    throw Error(ErrorKind::usage, "--output", without_ending(file, ".png or .exr"));
   }
   if (encoding == "srgb")
     target.encoding = Encoding::srgb;

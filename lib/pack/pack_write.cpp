@@ -99,6 +99,21 @@ void check_pack_folder(const fs::path& folder) {
   replaceable_files(folder);
 }
 
+fs::path pack_around(const fs::path& folder) {
+  std::error_code fault;
+  fs::path inner = fs::weakly_canonical(fs::absolute(folder), fault);
+  if (inner.filename().empty()) inner = inner.parent_path(); // "pack/"
+  for (fs::path outer = inner.parent_path(); outer != inner; inner = outer, outer = outer.parent_path()) {
+    if (!fs::exists(outer / "pack.json", fault)) continue;
+    try {
+      read_pack_description(outer);
+      return outer;
+    } catch (const Error&) { // the pack.json of something else
+    }
+  }
+  return {};
+}
+
 void write_pack(const Pack& pack, const fs::path& folder, const Progress& progress) {
   const PackDescription description = described(pack);
   StagedFolder staged(folder); // first, since it puts back what a killed process left half done

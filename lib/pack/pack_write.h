@@ -21,4 +21,8 @@ void write_pack(const Pack& pack, const std::filesystem::path& folder, const Pro
 /// in it, a lock, a lack of permission. Leaves no trace.
 void check_pack_folder(const std::filesystem::path& folder);
 
+/// The folder of the pack in which `folder` would lie, however deep; empty if in none. A pack in a pack would
+/// be files of another there.
+std::filesystem::path pack_around(const std::filesystem::path& folder);
+
 } // namespace tilepack

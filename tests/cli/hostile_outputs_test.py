@@ -97,6 +97,33 @@ class Outputs(CommandCase):
             with self.subTest(arguments):
                 self.refused(*arguments, code=USAGE, saying=("--report", ".html"))
 
+    def test_what_is_wrong_with_the_name_of_a_page_or_picture(self):
+        self.older_pack()
+        os.mkdir(self.path("pages.html"))
+        for arguments, option, allowed in (
+                (("bake", "sample.png", "-o", "new", "--report"), "--report", ".html"),
+                (("bench", "out", "--quick", "--report"), "--report", ".html"),
+                (("render", "out", "-o"), "--output", ".png or .exr"),
+                (("inspect", "out", "--preview"), "--preview", ".png or .svg")):
+            for name, fault in ((".", "is a folder; name a file in it that ends in "), ("new/", "is a folder"),
+                                ("page", "has no ending; it must be "), ("page.txt", "ends in '.txt'; it must be ")):
+                with self.subTest(arguments, name=name):
+                    message = self.refused(*arguments, name, code=USAGE, saying=(f"{option}: '{name}' {fault}"))
+                    self.assertTrue(message.endswith(allowed + "\n"), message)
+        self.refused("bake", "sample.png", "-o", "new", "--report", "pages.html", code=USAGE, saying="is a folder")
+
+    def test_a_pack_in_a_pack(self):
+        self.older_pack()
+        for folder in ("out/sub", "out/sub/", "out/deep/er", "./new/../out/sub"):
+            with self.subTest(folder):
+                for arguments in (("bake", "sample.png", *SMALL), ("pack", "sample.png", "--colors", "none.json")):
+                    self.refused(*arguments, "-o", folder, code=USAGE,
+                                 saying=(f"--output: '{folder}' lies in the pack 'out'", "outside of it"))
+        for folder in ("out", "out/", "outer"):
+            self.run_tilepack("bake", "sample.png", "-o", folder, *SMALL)
+        self.write("pack.json", "{}")  # of something else
+        self.run_tilepack("bake", "sample.png", "-o", "other", *SMALL)
+
     def older_pack(self):
         self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", *SMALL)
 

@@ -177,6 +177,9 @@ class Validate(CommandCase):
     def test_stray_files_are_a_note(self):
         self.write("pack/thumbs.db", "")
         self.assertEqual(self.rules(0), {"TP208"})
+        shutil.copytree(self.path("pack"), self.path("pack", "inner"))
+        self.assertEqual(self.rules(0), {"TP208"})
+        self.assertIn("inner/", self.run_tilepack("validate", "pack").stdout)
 
     def test_text_says_what_where_and_how_to_mend(self):
         os.unlink(self.path("pack", "color_2.png"))
