@@ -168,6 +168,8 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
     ++settings.coarse_polish.passes;
     ++settings.coarse_polish.sweeps;
   }
+  settings.polish.calm_price = 0.7;
+  settings.coarse_polish.calm_price = 1.5; // here most matches are made; at full size they are only refined
   settings.coarse_polish.reach = 6;
   settings.coarse_polish.seam_threshold = 500;
   return settings;

@@ -1,6 +1,7 @@
 #include "tilepack/synth/polish.h"
 
 #include "tilepack/synth/byte_rows.h"
+#include "tilepack/synth/contrast_rank.h"
 #include "tilepack/synth/usage.h"
 #include "tilepack/tileset/random.h"
 
@@ -20,10 +21,9 @@ struct Prices {
   static constexpr int unit = 64;
   int square = 1; // each holds for so many texels a side, by where a match has its middle
   int columns = 0;
-  std::vector<std::uint16_t> values; // none: nothing anywhere
+  std::vector<std::uint16_t> values;
 
   int at(SourceTexel s) const {
-    if (values.empty()) return 0;
     return values[static_cast<std::size_t>(s.y / square) * static_cast<std::size_t>(columns) +
                   static_cast<std::size_t>(s.x / square)];
   }
@@ -215,11 +215,20 @@ private:
   std::vector<int> changed;        // the last sweep that changed it
 };
 
-// By how often the canvases show the surroundings of a texel.
-Prices prices_of(const FeatureImage& image, const std::vector<SourceCanvas>& canvases, Rect shown, int scale,
-                 double freshness) {
-  if (freshness <= 0.0) return {};
-  const int square = std::max(1, 4 / scale);
+// Of a match by its contrast alone.
+Prices calm_prices(const FeatureImage& image, int square, double calm_price) {
+  const ContrastRanks ranks = contrast_ranks(image, square);
+  Prices prices{square, ranks.wide, {}};
+  for (const std::uint8_t rank : ranks.ranks)
+    prices.values.push_back(static_cast<std::uint16_t>(
+        Prices::unit * calm_price * (ContrastRanks::highest - rank) / ContrastRanks::highest));
+  return prices;
+}
+
+// What is added by how often the canvases show the surroundings of a texel.
+void add_usage(const FeatureImage& image, const std::vector<SourceCanvas>& canvases, Rect shown,
+               double freshness, Prices& prices) {
+  const int square = prices.square;
   Usage usage(image.width, image.height, square);
   for (const SourceCanvas& canvas : canvases)
     for (int y = shown.y; y < shown.y + shown.height; ++y)
@@ -230,18 +239,16 @@ Prices prices_of(const FeatureImage& image, const std::vector<SourceCanvas>& can
   usage.prepare();
   const double average = usage.mean();
   constexpr double highest = 4.0; // times the average; more is no worse
-  Prices prices{square, (image.width + square - 1) / square, {}};
-  const int rows = (image.height + square - 1) / square;
-  prices.values.resize(static_cast<std::size_t>(prices.columns) * static_cast<std::size_t>(rows));
+  const int rows = static_cast<int>(prices.values.size()) / prices.columns;
   tbb::parallel_for(0, rows, [&](int j) {
     for (int i = 0; i < prices.columns; ++i) {
       const double often = usage.mean({(i - 2) * square, (j - 2) * square, 5 * square, 5 * square}) / average;
-      prices.values[static_cast<std::size_t>(j) * static_cast<std::size_t>(prices.columns) +
-                    static_cast<std::size_t>(i)] =
-          static_cast<std::uint16_t>(Prices::unit * freshness * std::min(often, highest));
+      std::uint16_t& price =
+          prices.values[static_cast<std::size_t>(j) * static_cast<std::size_t>(prices.columns) +
+                        static_cast<std::size_t>(i)];
+      price = static_cast<std::uint16_t>(price + Prices::unit * freshness * std::min(often, highest));
     }
   });
-  return prices;
 }
 
 SourceCanvas shrunk(const FeatureImage& image, const SourceCanvas& canvas, int scale) {
@@ -297,8 +304,10 @@ void polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t
     before[n] = after[n] = shrunk(image, canvases[n], scale);
     matches[n] = first_matches(image, options, after[n]);
   });
+  const Prices by_contrast = calm_prices(image, std::max(1, 4 / scale), options.calm_price);
   for (int pass = 0; pass < options.passes; ++pass) {
-    const Prices prices = prices_of(image, after, small_shown, scale, options.freshness);
+    Prices prices = by_contrast;
+    if (options.freshness > 0.0) add_usage(image, after, small_shown, options.freshness, prices);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
       PolishPass run(image, prices, small_fixed, options, after[n], matches[n]);
       run.look_up(random_bits(options.seed, "polish pass", n * 64 + static_cast<std::size_t>(pass)));

@@ -14,6 +14,8 @@ struct PolishOptions {
   int reach = 8;           ///< texels this far from a seam may change
   double freshness = 0.0;  ///< at f, a match in a part of the sample that is shown as often as the average
                            ///< counts 1 + f times as unlike
+  double calm_price = 0.0; ///< at p, a match in the calmest part of the sample counts 1 + p times as unlike,
+                           ///< one of middle contrast 1 + p / 2 times (see ContrastRanks)
   int seam_threshold = 64; ///< seams that cost no more are left alone
 };
 
@@ -21,6 +23,9 @@ struct PolishOptions {
 /// a seam a like one is looked up in the sample (by propagation from neighbours and random trials), and each
 /// texel is replaced by the one, among those its squares propose, that is nearest to their mean.
 /// Texels are chosen, never averaged, so they stay verbatim.
+///
+/// What is calm is like much else and would be found too often: without PolishOptions::calm_price there would
+/// be less contrast round seams than in the sample.
 ///
 /// All canvases of a set, which are of one size, are polished together, pass by pass: before each pass it is
 /// counted how often they show each part of the sample, so that the next look-up can turn to what they don't

@@ -7,6 +7,7 @@
 // In figures.json, `limits` say which way is better, and how far a figure may move the other way before it
 // warns or fails: a share of its value, but at least `least` units.
 
+#include "border_contrast.h"
 #include "patch_coherence.h"
 
 #include "tilepack/error/error.h"
@@ -84,6 +85,7 @@ std::vector<Figure> figures_of(const Subject& subject, const fs::path& folder) {
           {"cut_p95", f.cut_p95},
           {"border_mean", f.border_mean},
           {"border_step", seam_figures(made.pack, 0, 0, 0).seam},
+          {"border_contrast", quality::border_contrast(made.sample.features, made.sources)},
           {"in_pieces", f.in_pieces},
           {"coverage", f.coverage},
           {"distinct_tiles", f.distinct_tiles},
