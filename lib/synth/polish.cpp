@@ -215,13 +215,22 @@ private:
   std::vector<int> changed;        // the last sweep that changed it
 };
 
-// Of a match by its contrast alone.
+// Of a match by its contrast alone, which in large samples is found less finely than prices are kept.
 Prices calm_prices(const FeatureImage& image, int square, double calm_price) {
-  const ContrastRanks ranks = contrast_ranks(image, square);
-  Prices prices{square, ranks.wide, {}};
-  for (const std::uint8_t rank : ranks.ranks)
-    prices.values.push_back(static_cast<std::uint16_t>(
-        Prices::unit * calm_price * (ContrastRanks::highest - rank) / ContrastRanks::highest));
+  constexpr std::int64_t most_ranked = 65'536;
+  const std::int64_t texels = static_cast<std::int64_t>(image.width) * image.height;
+  int times = 1;
+  while (texels / (square * square) / (times * times) > most_ranked) times *= 2;
+  const ContrastRanks ranks = contrast_ranks(image, square * times);
+  Prices prices{square, (image.width + square - 1) / square, {}};
+  const int rows = (image.height + square - 1) / square;
+  prices.values.resize(static_cast<std::size_t>(prices.columns) * static_cast<std::size_t>(rows));
+  std::size_t i = 0;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < prices.columns; ++x, ++i)
+      prices.values[i] = static_cast<std::uint16_t>(
+          Prices::unit * calm_price * (ContrastRanks::highest - ranks.at(x / times, y / times)) /
+          ContrastRanks::highest);
   return prices;
 }
 
