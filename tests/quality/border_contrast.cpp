@@ -20,7 +20,8 @@ struct MeanStep {
 } // namespace
 
 double border_contrast(const FeatureImage& sample, const SourceMap& sources) {
-  const auto [width, height] = sources.tile_size;
+  const int width = sources.tile_size.width;
+  const int height = sources.tile_size.height;
   const int depth = std::min(width, height) / 8;
   MeanStep near_borders;
   for (const auto& texels : sources.texels) {
