@@ -9,6 +9,7 @@ namespace tilepack {
 namespace {
 
 constexpr int half = 3;
+constexpr std::int64_t most_squares = 16'384; // what is calm stays so over some texels
 
 // Per texel, times 64 so that small differences count.
 std::int64_t variance_round(const FeatureImage& image, int x, int y) {
@@ -34,7 +35,10 @@ std::int64_t variance_round(const FeatureImage& image, int x, int y) {
 
 } // namespace
 
-ContrastRanks contrast_ranks(const FeatureImage& image, int square) {
+ContrastRanks contrast_ranks(const FeatureImage& image) {
+  int square = 1;
+  while (static_cast<std::int64_t>(image.width / square) * (image.height / square) > most_squares)
+    square *= 2;
   ContrastRanks result{square, (image.width + square - 1) / square, (image.height + square - 1) / square, {}};
   const auto wide = static_cast<std::size_t>(result.wide);
   std::vector<std::int64_t> variances(wide * static_cast<std::size_t>(result.high));
@@ -50,7 +54,7 @@ ContrastRanks contrast_ranks(const FeatureImage& image, int square) {
   tbb::parallel_for(std::size_t{0}, variances.size(), [&](std::size_t i) {
     const auto calmer = static_cast<std::size_t>(
         std::lower_bound(sorted.begin(), sorted.end(), variances[i]) - sorted.begin());
-    result.ranks[i] = static_cast<std::uint8_t>(calmer * ContrastRanks::highest / sorted.size());
+    result.ranks[i] = static_cast<std::uint8_t>(calmer * ContrastRanks::count / sorted.size());
   });
   return result;
 }

@@ -91,17 +91,29 @@ std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
   return fixed;
 }
 
-// At half size and then at full size.
-void polish_both(const FeaturePyramid& pyramid, const std::vector<std::uint8_t>& fixed, Rect shown,
-                 const PolishOptions& coarse, const PolishOptions& fine,
-                 std::vector<SourceCanvas>& canvases) {
-  if (pyramid.size() > 1) polish(pyramid[1], 2, fixed, shown, coarse, canvases);
-  polish(pyramid.front(), 1, fixed, shown, fine, canvases);
-}
+// The levels of the sample at which joins are polished.
+struct PolishLevels {
+  PolishLevels(const FeaturePyramid& sample_pyramid, const FramedSetSettings& settings)
+      : pyramid(sample_pyramid) {
+    if (settings.polish.passes > 0) full = contrast_ranks(pyramid.front());
+    if (settings.coarse_polish.passes > 0 && pyramid.size() > 1) half = contrast_ranks(pyramid[1]);
+  }
+
+  // At half size and then at full size.
+  void polish_both(const std::vector<std::uint8_t>& fixed, Rect shown, const PolishOptions& coarse,
+                   const PolishOptions& fine, std::vector<SourceCanvas>& canvases) const {
+    if (pyramid.size() > 1) polish(pyramid[1], half, 2, fixed, shown, coarse, canvases);
+    polish(pyramid.front(), full, 1, fixed, shown, fine, canvases);
+  }
+
+  const FeaturePyramid& pyramid;
+  ContrastRanks full; // none where there are no passes
+  ContrastRanks half;
+};
 
 // Strips are mended before tiles are made of them, so that what crosses an edge is mended on both its sides.
 // The squares at the lattice points, which all strips there share, stay.
-void mend_strips(const FeaturePyramid& pyramid, const PatchSearch& search, const FrameShape& shape,
+void mend_strips(const PolishLevels& levels, const PatchSearch& search, const FrameShape& shape,
                  const FramePlan& plan, const FramedSetSettings& settings, Direction direction,
                  std::vector<SourceCanvas>& strips) {
   const StripSpace space = space_of(shape, direction);
@@ -113,17 +125,17 @@ void mend_strips(const FeaturePyramid& pyramid, const PatchSearch& search, const
       fixed.push_back(std::min(along, space.length - 1 - along) < shape.guard);
     }
   const Phase phase = plan.phase.seen_from(strip_place(space, 1));
-  Usage nothing_shown(pyramid.back().width, pyramid.back().height);
+  Usage nothing_shown(levels.pyramid.back().width, levels.pyramid.back().height);
   nothing_shown.prepare();
   tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
-    mend_spots(pyramid, search, nothing_shown, phase, fixed, settings.mend, strips[i]);
+    mend_spots(levels.pyramid, search, nothing_shown, phase, fixed, settings.mend, strips[i]);
   });
   PolishOptions coarse = settings.coarse_polish;
   PolishOptions fine = settings.polish;
   coarse.freshness = fine.freshness = 0.0; // few strips could not show all of the sample if they wanted
   const char* purpose = direction == Direction::horizontal ? "polish horizontal" : "polish vertical";
   coarse.seed = fine.seed = random_bits(fine.seed, purpose, 0);
-  polish_both(pyramid, fixed, all, coarse, fine, strips);
+  levels.polish_both(fixed, all, coarse, fine, strips);
 }
 
 Usage shown_at(const FeatureImage& small, int scale, const std::vector<SourceCanvas>& tiles) {
@@ -181,11 +193,12 @@ SourceMap framed_set(const StudiedSample& sample, const SynthOptions& options,
   const FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
   const FeaturePyramid pyramid = pyramid_down_to(image, shape.tile, settings.smallest_search_tile);
   const PatchSearch search(pyramid.back());
+  const PolishLevels levels(pyramid, settings);
   const FramePlan plan = searched_frame(pyramid, search, sample, shape, settings.frame, progress);
   Frame frame = joined_frame(image, shape, plan);
   tbb::parallel_invoke(
-      [&] { mend_strips(pyramid, search, shape, plan, settings, Direction::horizontal, frame.horizontal); },
-      [&] { mend_strips(pyramid, search, shape, plan, settings, Direction::vertical, frame.vertical); });
+      [&] { mend_strips(levels, search, shape, plan, settings, Direction::horizontal, frame.horizontal); },
+      [&] { mend_strips(levels, search, shape, plan, settings, Direction::vertical, frame.vertical); });
   auto tiles = framed_tiles(shape, frame);
   const auto interiors =
       chosen_interiors(pyramid, search, sample, shape, plan, tiles, settings.interiors, progress);
@@ -201,8 +214,8 @@ SourceMap framed_set(const StudiedSample& sample, const SynthOptions& options,
     mend_spots(pyramid, search, usage, phase, fixed, settings.mend, tiles[id]);
   });
   report(progress, "mending", 0.3);
-  polish_both(pyramid, fixed, {margin, margin, shape.tile.width, shape.tile.height}, settings.coarse_polish,
-              settings.polish, tiles);
+  levels.polish_both(fixed, {margin, margin, shape.tile.width, shape.tile.height}, settings.coarse_polish,
+                     settings.polish, tiles);
   for (SourceCanvas& tile : tiles) tile = without_margin(shape, tile);
   report(progress, "mending", 1.0);
 

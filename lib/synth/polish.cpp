@@ -1,7 +1,6 @@
 #include "tilepack/synth/polish.h"
 
 #include "tilepack/synth/byte_rows.h"
-#include "tilepack/synth/contrast_rank.h"
 #include "tilepack/synth/usage.h"
 #include "tilepack/tileset/random.h"
 
@@ -215,22 +214,15 @@ private:
   std::vector<int> changed;        // the last sweep that changed it
 };
 
-// Of a match by its contrast alone, which in large samples is found less finely than prices are kept.
-Prices calm_prices(const FeatureImage& image, int square, double calm_price) {
-  constexpr std::int64_t most_ranked = 65'536;
-  const std::int64_t texels = static_cast<std::int64_t>(image.width) * image.height;
-  int times = 1;
-  while (texels / (square * square) / (times * times) > most_ranked) times *= 2;
-  const ContrastRanks ranks = contrast_ranks(image, square * times);
+// Of a match by its contrast alone.
+Prices calm_prices(const FeatureImage& image, const ContrastRanks& ranks, int square, double calm_price) {
   Prices prices{square, (image.width + square - 1) / square, {}};
-  const int rows = (image.height + square - 1) / square;
-  prices.values.resize(static_cast<std::size_t>(prices.columns) * static_cast<std::size_t>(rows));
-  std::size_t i = 0;
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < prices.columns; ++x, ++i)
-      prices.values[i] = static_cast<std::uint16_t>(
-          Prices::unit * calm_price * (ContrastRanks::highest - ranks.at(x / times, y / times)) /
-          ContrastRanks::highest);
+  for (int y = square / 2; y - square / 2 < image.height; y += square)
+    for (int x = square / 2; x - square / 2 < image.width; x += square) {
+      const int rank = ranks.at(std::min(x, image.width - 1), std::min(y, image.height - 1));
+      prices.values.push_back(static_cast<std::uint16_t>(
+          Prices::unit * calm_price * (ContrastRanks::count - rank) / ContrastRanks::count));
+    }
   return prices;
 }
 
@@ -298,8 +290,9 @@ std::vector<std::uint8_t> shrunk_mask(const std::vector<std::uint8_t>& fixed, co
 
 } // namespace
 
-void polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t>& fixed, Rect shown,
-            const PolishOptions& options, std::vector<SourceCanvas>& canvases) {
+void polish(const FeatureImage& image, const ContrastRanks& ranks, int scale,
+            const std::vector<std::uint8_t>& fixed, Rect shown, const PolishOptions& options,
+            std::vector<SourceCanvas>& canvases) {
   if (canvases.empty() || options.passes == 0) return;
   const SourceCanvas& one = canvases.front();
   if (std::min({image.width, image.height, one.width / scale, one.height / scale}) < side) return;
@@ -313,7 +306,7 @@ void polish(const FeatureImage& image, int scale, const std::vector<std::uint8_t
     before[n] = after[n] = shrunk(image, canvases[n], scale);
     matches[n] = first_matches(image, options, after[n]);
   });
-  const Prices by_contrast = calm_prices(image, std::max(1, 4 / scale), options.calm_price);
+  const Prices by_contrast = calm_prices(image, ranks, std::max(1, 4 / scale), options.calm_price);
   for (int pass = 0; pass < options.passes; ++pass) {
     Prices prices = by_contrast;
     if (options.freshness > 0.0) add_usage(image, after, small_shown, options.freshness, prices);

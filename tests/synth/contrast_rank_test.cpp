@@ -9,14 +9,9 @@
 
 using namespace tilepack;
 using testing::blobs;
-using testing::color_map;
+using testing::features;
 
 namespace {
-
-FeatureImage features(const Image& image) {
-  const SampleMap map = color_map(image);
-  return feature_image({&map, 1});
-}
 
 // Blobs whose contrast grows from nothing in the west to that of `blobs` in the east.
 Image livelier_eastward(int side) {
@@ -43,26 +38,27 @@ double mean_step(const FeatureImage& image, const SourceCanvas& canvas) {
 } // namespace
 
 TEST_CASE("contrast ranks split a sample's squares into equal parts, the calm ones first") {
-  const FeatureImage image = features(livelier_eastward(96));
-  const ContrastRanks ranks = contrast_ranks(image, 4);
-  REQUIRE(ranks.wide == 24);
-  REQUIRE(ranks.high == 24);
-  CHECK(ranks.at(0, 12) < 4);
-  CHECK(ranks.at(23, 12) > ContrastRanks::highest / 2);
+  const FeatureImage image = features(livelier_eastward(160));
+  const ContrastRanks ranks = contrast_ranks(image);
+  REQUIRE(ranks.square == 2);
+  REQUIRE(ranks.wide == 80);
+  REQUIRE(ranks.high == 80);
+  CHECK(ranks.at(0, 50) < 4);
+  CHECK(ranks.at(159, 50) > ContrastRanks::count / 2);
   for (int part = 0; part < 4; ++part) {
     const auto count = std::count_if(ranks.ranks.begin(), ranks.ranks.end(), [&](std::uint8_t rank) {
-      return rank * 4 / ContrastRanks::highest == part;
+      return rank * 4 / ContrastRanks::count == part;
     });
-    CHECK(std::abs(static_cast<int>(count) - 144) <= 1);
+    CHECK(std::abs(static_cast<int>(count) - 1600) <= 16);
   }
 }
 
 TEST_CASE("contrast ranks of a flat sample are all the lowest; squares cut off at its end count too") {
-  const FeatureImage image = features(Image(10, 7, 3));
-  const ContrastRanks ranks = contrast_ranks(image, 4);
-  CHECK(ranks.wide == 3);
-  CHECK(ranks.high == 2);
-  CHECK(ranks.ranks == std::vector<std::uint8_t>(6, 0));
+  const FeatureImage image = features(Image(201, 131, 3));
+  const ContrastRanks ranks = contrast_ranks(image);
+  CHECK(ranks.wide == 101);
+  CHECK(ranks.high == 66);
+  CHECK(ranks.ranks == std::vector<std::uint8_t>(101 * 66, 0));
 }
 
 TEST_CASE("polishing with a price on calm parts keeps the contrast round a seam") {
@@ -76,7 +72,7 @@ TEST_CASE("polishing with a price on calm parts keeps the contrast round a seam"
     PolishOptions options;
     options.calm_price = calm_price;
     std::vector<SourceCanvas> canvases{start};
-    polish(image, 1, fixed, {0, 0, 40, 48}, options, canvases);
+    polish(image, contrast_ranks(image), 1, fixed, {0, 0, 40, 48}, options, canvases);
     return mean_step(image, canvases[0]);
   };
   const double plain = contrast(0.0);

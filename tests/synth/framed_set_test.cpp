@@ -195,7 +195,7 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
   mend_spots(pyramid, search, unused(pyramid.back()), {}, fixed, {}, mended);
   CHECK(seam_energy(pyramid[0], mended) < seam_energy(pyramid[0], start));
   std::vector<SourceCanvas> polished{start};
-  polish(pyramid[0], 1, fixed, {0, 0, 48, 40}, {}, polished);
+  polish(pyramid[0], contrast_ranks(pyramid[0]), 1, fixed, {0, 0, 48, 40}, {}, polished);
   CHECK(polished[0].texels != start.texels);
   for (std::size_t i = 0; i < fixed.size(); ++i)
     if (fixed[i]) CHECK((mended.texels[i] == start.texels[i] && polished[0].texels[i] == start.texels[i]));
@@ -241,7 +241,7 @@ TEST_CASE("polishing at half size changes texels near a seam to others of the sa
       fixed[start.index(x, y)] = x < 46;
     }
   std::vector<SourceCanvas> polished{start};
-  polish(halved(image), 2, fixed, {0, 0, 96, 80}, {}, polished);
+  polish(halved(image), contrast_ranks(halved(image)), 2, fixed, {0, 0, 96, 80}, {}, polished);
   CHECK(polished[0].texels != start.texels);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const SourceTexel s = polished[0].texels[i];
@@ -283,7 +283,7 @@ TEST_CASE("passes of polishing make squares more like the sample's, and leave al
     PolishOptions options;
     options.passes = passes;
     std::vector<SourceCanvas> canvases{start};
-    polish(image, 1, fixed, all, options, canvases);
+    polish(image, contrast_ranks(image), 1, fixed, all, options, canvases);
     return unlikeness(image, canvases[0]);
   };
   const double once = polished(1);
@@ -294,7 +294,7 @@ TEST_CASE("passes of polishing make squares more like the sample's, and leave al
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 48; ++x) whole[0].at(x, y) = {x + 5, y + 7};
   const auto before = whole[0].texels;
-  polish(image, 1, fixed, all, {}, whole);
+  polish(image, contrast_ranks(image), 1, fixed, all, {}, whole);
   CHECK(whole[0].texels == before);
 }
 
@@ -307,7 +307,7 @@ TEST_CASE("polishing with freshness turns to parts of the sample that no canvas 
     PolishOptions options;
     options.freshness = freshness;
     std::vector<SourceCanvas> canvases{start, start};
-    polish(image, 1, fixed, {0, 0, 48, 40}, options, canvases);
+    polish(image, contrast_ranks(image), 1, fixed, {0, 0, 48, 40}, options, canvases);
     return std::count_if(canvases[0].texels.begin(), canvases[0].texels.end(),
                          [](SourceTexel s) { return s.x >= 64 || s.y >= 64; });
   };

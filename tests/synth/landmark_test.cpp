@@ -10,14 +10,9 @@
 
 using namespace tilepack;
 using testing::blobs;
-using testing::color_map;
+using testing::features;
 
 namespace {
-
-FeatureImage features(const Image& image) {
-  const SampleMap map = color_map(image);
-  return feature_image({&map, 1});
-}
 
 // Grey blobs, and one spot of them that is no brighter and no darker but red.
 Image with_red_spot(int side, int west, int north, int width) {

@@ -45,4 +45,9 @@ inline SampleMap color_map(Image image) {
   return {"color", Role::color, Encoding::srgb, Depth::u8, std::move(image)};
 }
 
+inline FeatureImage features(const Image& image) {
+  const SampleMap map = color_map(image);
+  return feature_image({&map, 1});
+}
+
 } // namespace tilepack::testing

@@ -25,11 +25,6 @@ SourceMap windows(Size tile, const std::vector<SourceTexel>& places) {
   return map;
 }
 
-FeatureImage features(const Image& image) {
-  const SampleMap maps[] = {color_map(image)};
-  return feature_image(maps);
-}
-
 } // namespace
 
 TEST_CASE("windows of the sample have no cuts, and show what they show", "[set_report]") {
