@@ -132,6 +132,89 @@ SampleStatistics::Tally strips_tally(const FrameShape& shape, const FramePlan& p
   return tally;
 }
 
+// What a choice of all insides is judged by, at the scale of the search.
+struct InteriorTask {
+  const SampleStatistics& statistics;
+  const InteriorOptions& options;
+  const std::vector<std::vector<Choice>>& choices; // of each tile, best first
+  Usage usage;                                     // of what is placed; strips at first
+  SampleStatistics::Tally tally;                   // likewise
+  Size tile;
+  int inset;                // an inside is shown this far from the borders of its tile
+  int scale;                // texels of the sample to one of the search
+  double average = 0.0;     // how often a part of the sample is shown
+  double all_misfits = 0.0; // the sum of the best of each tile
+
+  Rect inside(SourceTexel at) const {
+    return {at.x + inset, at.y + inset, tile.width - 2 * inset, tile.height - 2 * inset};
+  }
+  Rect inside_in_sample(SourceTexel at) const {
+    const Rect r = inside(at);
+    return {r.x * scale, r.y * scale, r.width * scale, r.height * scale};
+  }
+  void place(SourceTexel at, double weight) {
+    usage.add(inside(at), weight);
+    statistics.add(tally, inside_in_sample(at), weight);
+    usage.prepare();
+  }
+  // With its own tile not placed.
+  double fit_and_freshness(const Choice& choice) const {
+    return static_cast<double>(choice.misfit) *
+           (1.0 + options.freshness * usage.mean(inside(choice.place)) / average);
+  }
+};
+
+struct InteriorChoice {
+  std::vector<SourceTexel> places;
+  double cost = 0.0;
+};
+
+// One tile after another takes what is best beside all others, in another order in each round and start.
+InteriorChoice choose_all(InteriorTask task, std::size_t start) {
+  const InteriorOptions& options = task.options;
+  const std::size_t tiles = task.choices.size();
+  const double likeness = options.likeness * task.all_misfits;
+  std::vector<const Choice*> chosen(tiles, nullptr);
+  std::vector<std::size_t> order(tiles);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (int round = 0; round < options.rounds; ++round) {
+    const std::size_t stream =
+        (start * static_cast<std::size_t>(options.rounds) + static_cast<std::size_t>(round)) * tiles;
+    for (std::size_t i = tiles; i > 1; --i)
+      std::swap(
+          order[i - 1],
+          order[random_below(options.seed, "interior order", stream + i, static_cast<std::uint32_t>(i))]);
+    for (const std::size_t id : order) {
+      if (chosen[id] != nullptr)
+        task.place(chosen[id]->place, -1.0);
+      else
+        task.usage.prepare();
+      double least = std::numeric_limits<double>::max();
+      for (const Choice& choice : task.choices[id]) {
+        if (static_cast<double>(choice.misfit) >= least) break; // nor do those after it cost less
+        double cost = task.fit_and_freshness(choice);
+        if (cost >= least) continue; // spares most of the looks at the statistics, which take longest
+        cost +=
+            likeness * task.statistics.distance_with(task.tally, task.inside_in_sample(choice.place), 1.0);
+        if (cost < least) {
+          least = cost;
+          chosen[id] = &choice;
+        }
+      }
+      task.place(chosen[id]->place, 1.0);
+    }
+  }
+  InteriorChoice result;
+  result.cost = likeness * task.statistics.distance(task.tally);
+  for (const Choice* choice : chosen) {
+    task.place(choice->place, -1.0);
+    result.cost += task.fit_and_freshness(*choice);
+    task.place(choice->place, 1.0);
+    result.places.push_back(choice->place);
+  }
+  return result;
+}
+
 } // namespace
 
 bool in_guard(const FrameShape& shape, int x, int y) {
@@ -194,56 +277,22 @@ std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const P
   report(progress, "interiors", 0.5);
 
   const Size tile{shape.tile.width / scale, shape.tile.height / scale};
-  const int inset = std::min(shape.reach / 2 / scale, std::min(tile.width, tile.height) / 2 - 1);
-  const auto inside = [&](SourceTexel at) {
-    return Rect{at.x + inset, at.y + inset, tile.width - 2 * inset, tile.height - 2 * inset};
-  };
-  Usage usage(small.width, small.height, std::max(1, std::min(tile.width, tile.height) / 16));
-  set_prices(sample.deviations, options, scale, usage);
-  add_strips(shape, plan, scale, usage);
-  SampleStatistics::Tally tally = strips_tally(shape, plan, statistics);
-  const auto inside_in_sample = [&](SourceTexel at) {
-    const Rect r = inside(at);
-    return Rect{r.x * scale, r.y * scale, r.width * scale, r.height * scale};
-  };
-  double all_misfits = 0.0;
-  for (const auto& list : choices) all_misfits += static_cast<double>(list.front().misfit);
-  const double average = static_cast<double>(tiles) * tile.width * tile.height /
-                         (static_cast<double>(small.width) * small.height);
-  std::vector<SourceTexel> places(tiles);
-  std::vector<bool> placed(tiles, false);
-  std::vector<std::size_t> order(tiles);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  for (int round = 0; round < options.rounds; ++round) {
-    for (std::size_t i = tiles; i > 1; --i)
-      std::swap(
-          order[i - 1],
-          order[random_below(options.seed, "interior order", static_cast<std::uint64_t>(round) * tiles + i,
-                             static_cast<std::uint32_t>(i))]);
-    for (const std::size_t id : order) {
-      if (placed[id]) {
-        usage.add(inside(places[id]), -1.0);
-        statistics.add(tally, inside_in_sample(places[id]), -1.0);
-      }
-      usage.prepare();
-      double least = std::numeric_limits<double>::max();
-      for (const Choice& choice : choices[id]) {
-        if (static_cast<double>(choice.misfit) >= least) break; // nor do those after it cost less
-        double cost = static_cast<double>(choice.misfit) *
-                      (1.0 + options.freshness * usage.mean(inside(choice.place)) / average);
-        if (cost >= least) continue; // spares most of the looks at the statistics, which take longest
-        cost += options.likeness * all_misfits *
-                statistics.distance_with(tally, inside_in_sample(choice.place), 1.0);
-        if (cost < least) {
-          least = cost;
-          places[id] = choice.place;
-        }
-      }
-      usage.add(inside(places[id]), 1.0);
-      statistics.add(tally, inside_in_sample(places[id]), 1.0);
-      placed[id] = true;
-    }
-  }
+  const int square = std::max(1, std::min(tile.width, tile.height) / 16);
+  InteriorTask task{statistics, options, choices, {small.width, small.height, square}, {}, tile, 0, scale};
+  task.inset = std::min(shape.reach / 2 / scale, std::min(tile.width, tile.height) / 2 - 1);
+  task.average = static_cast<double>(tiles) * tile.width * tile.height /
+                 (static_cast<double>(small.width) * small.height);
+  for (const auto& list : choices) task.all_misfits += static_cast<double>(list.front().misfit);
+  set_prices(sample.deviations, options, scale, task.usage);
+  add_strips(shape, plan, scale, task.usage);
+  task.tally = strips_tally(shape, plan, statistics);
+  std::vector<InteriorChoice> starts(static_cast<std::size_t>(options.starts));
+  tbb::parallel_for(std::size_t{0}, starts.size(),
+                    [&](std::size_t start) { starts[start] = choose_all(task, start); });
+  std::vector<SourceTexel> places =
+      std::min_element(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
+        return a.cost < b.cost;
+      })->places;
 
   tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
     std::vector<Shown> shown{shown_by(pyramid.front(), shape, framed[id])};
