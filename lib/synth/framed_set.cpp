@@ -95,8 +95,11 @@ std::vector<std::uint8_t> fixed_texels(const FrameShape& shape) {
 struct PolishLevels {
   PolishLevels(const FeaturePyramid& sample_pyramid, const FramedSetSettings& settings)
       : pyramid(sample_pyramid) {
-    if (settings.polish.passes > 0) full = contrast_ranks(pyramid.front());
-    if (settings.coarse_polish.passes > 0 && pyramid.size() > 1) half = contrast_ranks(pyramid[1]);
+    const auto wanted = [](const PolishOptions& options) {
+      return options.passes > 0 && options.calm_price > 0;
+    };
+    if (wanted(settings.polish)) full = contrast_ranks(pyramid.front());
+    if (wanted(settings.coarse_polish) && pyramid.size() > 1) half = contrast_ranks(pyramid[1]);
   }
 
   // At half size and then at full size.
@@ -107,7 +110,7 @@ struct PolishLevels {
   }
 
   const FeaturePyramid& pyramid;
-  ContrastRanks full; // none where there are no passes
+  ContrastRanks full; // none where nothing asks for them
   ContrastRanks half;
 };
 
@@ -157,8 +160,8 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
                                              {1, 8, 2, 1, 2, 3},
                                              {2, 12, 3, 1, 2, 4},
                                              {2, 12, 4, 2, 2, 5},
-                                             {3, 12, 4, 2, 3, 6},
-                                             {3, 12, 6, 2, 4, 8},
+                                             {3, 12, 4, 2, 4, 6},
+                                             {3, 12, 6, 2, 5, 8},
                                              {3, 12, 8, 2, 6, 10},
                                              {3, 12, 8, 2, 10, 12},
                                              {3, 12, 8, 2, 16, 16}}};
@@ -180,8 +183,9 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
     ++settings.coarse_polish.passes;
     ++settings.coarse_polish.sweeps;
   }
-  settings.polish.calm_price = 0.7;
-  settings.coarse_polish.calm_price = 1.5; // here most matches are made; at full size they are only refined
+  // Only here: most matches are made at half size. At full size a price would hold back what is left to
+  // refine.
+  settings.coarse_polish.calm_price = 1.5;
   settings.coarse_polish.reach = 6;
   settings.coarse_polish.seam_threshold = 500;
   return settings;
@@ -201,7 +205,7 @@ SourceMap framed_set(const StudiedSample& sample, const SynthOptions& options,
       [&] { mend_strips(levels, search, shape, plan, settings, Direction::vertical, frame.vertical); });
   auto tiles = framed_tiles(shape, frame);
   const auto interiors =
-      chosen_interiors(pyramid, search, sample, shape, plan, tiles, settings.interiors, progress);
+      chosen_interiors(pyramid, search, sample, shape, plan, tiles, settings.interiors, progress).places;
   join_interiors(image, shape, interiors, settings.interiors.bias, tiles);
 
   report(progress, "mending", 0.0);

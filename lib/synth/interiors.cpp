@@ -164,11 +164,6 @@ struct InteriorTask {
   }
 };
 
-struct InteriorChoice {
-  std::vector<SourceTexel> places;
-  double cost = 0.0;
-};
-
 // One tile after another takes what is best beside all others, in another order in each round and start.
 InteriorChoice choose_all(InteriorTask task, std::size_t start) {
   const InteriorOptions& options = task.options;
@@ -251,10 +246,10 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
   return tiles;
 }
 
-std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
-                                          const StudiedSample& sample, const FrameShape& shape,
-                                          const FramePlan& plan, const std::vector<SourceCanvas>& framed,
-                                          const InteriorOptions& options, const Progress& progress) {
+InteriorChoice chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
+                                const StudiedSample& sample, const FrameShape& shape, const FramePlan& plan,
+                                const std::vector<SourceCanvas>& framed, const InteriorOptions& options,
+                                const Progress& progress) {
   const std::size_t tiles = framed.size();
   const SampleStatistics& statistics = sample.statistics;
   const FeatureImage& small = pyramid.back();
@@ -289,10 +284,9 @@ std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const P
   std::vector<InteriorChoice> starts(static_cast<std::size_t>(options.starts));
   tbb::parallel_for(std::size_t{0}, starts.size(),
                     [&](std::size_t start) { starts[start] = choose_all(task, start); });
-  std::vector<SourceTexel> places =
-      std::min_element(starts.begin(), starts.end(), [](const auto& a, const auto& b) {
-        return a.cost < b.cost;
-      })->places;
+  InteriorChoice best = *std::min_element(starts.begin(), starts.end(),
+                                          [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  std::vector<SourceTexel>& places = best.places;
 
   tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
     std::vector<Shown> shown{shown_by(pyramid.front(), shape, framed[id])};
@@ -303,7 +297,7 @@ std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const P
     }
   });
   report(progress, "interiors", 1.0);
-  return places;
+  return best;
 }
 
 void join_interiors(const FeatureImage& image, const FrameShape& shape,

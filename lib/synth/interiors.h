@@ -31,15 +31,20 @@ struct InteriorOptions {
   std::int64_t bias = 10;   ///< see apply_move
 };
 
+struct InteriorChoice {
+  std::vector<SourceTexel> places; ///< of each tile's north-west texel; whole tiles lie inside the sample
+  double cost = 0.0;               ///< by fit, freshness and likeness together, at the scale of the search
+};
+
 /// Chooses a window of the sample for the inside of each tile, all tiles together: by how it fits the tile's
-/// strips, and by how often its parts are shown already by strips and other tiles. Returns the sample texel
-/// at each tile's north-west texel; the whole tile lies inside the sample.
+/// strips, and by how often its parts are shown already by strips and other tiles. What is chosen depends on
+/// the order in which tiles choose, so several orders are tried side by side.
 ///
 /// `search` searches the last level of `pyramid`; its finds are refined in the others.
-std::vector<SourceTexel> chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
-                                          const StudiedSample& sample, const FrameShape& shape,
-                                          const FramePlan& plan, const std::vector<SourceCanvas>& framed,
-                                          const InteriorOptions& options, const Progress& progress = {});
+InteriorChoice chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
+                                const StudiedSample& sample, const FrameShape& shape, const FramePlan& plan,
+                                const std::vector<SourceCanvas>& framed, const InteriorOptions& options,
+                                const Progress& progress = {});
 
 /// Joins each tile's window to its strips by one closed cut.
 void join_interiors(const FeatureImage& image, const FrameShape& shape,

@@ -219,7 +219,8 @@ Prices calm_prices(const FeatureImage& image, const ContrastRanks& ranks, int sq
   Prices prices{square, (image.width + square - 1) / square, {}};
   for (int y = square / 2; y - square / 2 < image.height; y += square)
     for (int x = square / 2; x - square / 2 < image.width; x += square) {
-      const int rank = ranks.at(std::min(x, image.width - 1), std::min(y, image.height - 1));
+      const int rank =
+          calm_price > 0 ? ranks.at(std::min(x, image.width - 1), std::min(y, image.height - 1)) : 0;
       prices.values.push_back(static_cast<std::uint16_t>(
           Prices::unit * calm_price * (ContrastRanks::count - rank) / ContrastRanks::count));
     }

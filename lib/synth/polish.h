@@ -32,10 +32,10 @@ struct PolishOptions {
 /// counted how often they show each part of the sample, so that the next look-up can turn to what they don't
 /// show (see PolishOptions::freshness) without all of them turning to the same.
 ///
-/// `image` is the sample at 1 / scale of its size (scale 1 or 2), `ranks` are its contrast ranks. At half
-/// size a square sees twice as far; what changes there is brought back as squares of 2 × 2 texels, which want
-/// polishing at full size next. `fixed`: texels of a canvas that must stay, 1 each. `shown`: the part of a
-/// canvas that is counted.
+/// `image` is the sample at 1 / scale of its size (scale 1 or 2), `ranks` are its contrast ranks (not looked
+/// at without a calm_price). At half size a square sees twice as far; what changes there is brought back as
+/// squares of 2 × 2 texels, which want polishing at full size next. `fixed`: texels of a canvas that must
+/// stay, 1 each. `shown`: the part of a canvas that is counted.
 void polish(const FeatureImage& image, const ContrastRanks& ranks, int scale,
             const std::vector<std::uint8_t>& fixed, Rect shown, const PolishOptions& options,
             std::vector<SourceCanvas>& canvases);
