@@ -171,7 +171,10 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   settings.frame.starts = row.starts;
   settings.frame.candidates = row.candidates;
   settings.interiors.seed = seed;
-  if (effort == 0) settings.interiors.rounds = 2;
+  if (effort == 0) {
+    settings.interiors.starts = 4;
+    settings.interiors.rounds = 2;
+  }
   settings.mend.spots = row.spots;
   settings.mend.tries = row.tries;
   settings.polish.seed = seed;

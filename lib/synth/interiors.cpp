@@ -281,7 +281,10 @@ InteriorChoice chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch
   set_prices(sample.deviations, options, scale, task.usage);
   add_strips(shape, plan, scale, task.usage);
   task.tally = strips_tally(shape, plan, statistics);
-  std::vector<InteriorChoice> starts(static_cast<std::size_t>(options.starts));
+  // The larger the set, the longer an order takes, and the less one differs from another.
+  constexpr std::size_t most_tiles = 256; // of all starts together
+  std::vector<InteriorChoice> starts(
+      std::clamp<std::size_t>(most_tiles / tiles, 1, static_cast<std::size_t>(options.starts)));
   tbb::parallel_for(std::size_t{0}, starts.size(),
                     [&](std::size_t start) { starts[start] = choose_all(task, start); });
   InteriorChoice best = *std::min_element(starts.begin(), starts.end(),

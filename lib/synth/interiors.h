@@ -26,9 +26,10 @@ struct InteriorOptions {
   double likeness = 1500.0; ///< weight of the distance between what the set shows and the sample's statistics
   double caution = 4.0;     ///< showing a part again that deviates by striking_deviation + d (CellDeviations)
                             ///< is 1 + caution · d times as bad
-  int starts = 16;          ///< orders in which tiles choose; the best outcome is taken
-  int rounds = 6;           ///< passes over all tiles
-  std::int64_t bias = 10;   ///< see apply_move
+  int starts = 16;        ///< orders in which tiles choose; the best outcome is taken. Fewer for sets of more
+                          ///< than 16 tiles, 1 from 256 on
+  int rounds = 6;         ///< passes over all tiles
+  std::int64_t bias = 10; ///< see apply_move
 };
 
 struct InteriorChoice {
