@@ -186,8 +186,7 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
     ++settings.coarse_polish.passes;
     ++settings.coarse_polish.sweeps;
   }
-  // Only here: most matches are made at half size. At full size a price would hold back what is left to
-  // refine.
+  // Only here, where most matches are made: at full size the same contrast costs more likeness.
   settings.coarse_polish.calm_price = 1.5;
   settings.coarse_polish.reach = 6;
   settings.coarse_polish.seam_threshold = 500;

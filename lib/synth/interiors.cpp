@@ -180,10 +180,7 @@ InteriorChoice choose_all(InteriorTask task, std::size_t start) {
           order[i - 1],
           order[random_below(options.seed, "interior order", stream + i, static_cast<std::uint32_t>(i))]);
     for (const std::size_t id : order) {
-      if (chosen[id] != nullptr)
-        task.place(chosen[id]->place, -1.0);
-      else
-        task.usage.prepare();
+      if (chosen[id] != nullptr) task.place(chosen[id]->place, -1.0);
       double least = std::numeric_limits<double>::max();
       for (const Choice& choice : task.choices[id]) {
         if (static_cast<double>(choice.misfit) >= least) break; // nor do those after it cost less
@@ -280,6 +277,7 @@ InteriorChoice chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch
   for (const auto& list : choices) task.all_misfits += static_cast<double>(list.front().misfit);
   set_prices(sample.deviations, options, scale, task.usage);
   add_strips(shape, plan, scale, task.usage);
+  task.usage.prepare();
   task.tally = strips_tally(shape, plan, statistics);
   // The larger the set, the longer an order takes, and the less one differs from another.
   constexpr std::size_t most_tiles = 256; // of all starts together

@@ -27,7 +27,7 @@ struct InteriorOptions {
   double caution = 4.0;     ///< showing a part again that deviates by striking_deviation + d (CellDeviations)
                             ///< is 1 + caution · d times as bad
   int starts = 16;        ///< orders in which tiles choose; the best outcome is taken. Fewer for sets of more
-                          ///< than 16 tiles, 1 from 256 on
+                          ///< than 16 tiles, 1 beyond 128
   int rounds = 6;         ///< passes over all tiles
   std::int64_t bias = 10; ///< see apply_move
 };
