@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tilepack/pack/bake_fields.h"
+#include "tilepack/bake/bake_fields.h"
 
 #include <CLI/CLI.hpp>
 

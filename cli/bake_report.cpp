@@ -1,6 +1,6 @@
 #include "bake_report.h"
 
-#include "tilepack/verify/pack_summary.h"
+#include "tilepack/report/pack_summary.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "tilepack/error/progress.h"
 #include "tilepack/pack/pack_json.h"
-#include "tilepack/verify/bake_page.h"
+#include "tilepack/report/bake_page.h"
 
 #include <chrono>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tilepack/pack/material_files.h"
+#include "tilepack/bake/material_files.h"
 
 #include <optional>
 #include <span>

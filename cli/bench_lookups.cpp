@@ -3,9 +3,9 @@
 #include "jobs.h"
 #include "output_file.h"
 
+#include "tilepack/bench/bench.h"
+#include "tilepack/bench/stored_texture_bench.h"
 #include "tilepack/pack/pack_read.h"
-#include "tilepack/verify/bench.h"
-#include "tilepack/verify/stored_texture_bench.h"
 
 #include <fmt/format.h>
 
@@ -71,7 +71,7 @@ int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
   bench.mips = mip_mode_errors(pack, map, a.lookups, options.seed, progress);
   bench.corners = corner_pictures(pack, map, std::min(2, pack.tile_levels - 1));
   bench.coordinates = coordinate_errors(pack, map, options.seed);
-  bench.hard_lookups = hard_lookups();
+  bench.stress_lookups = stress_lookups();
   bench.lookups = bench_lookups(pack, map, options, progress);
   if (options.large) {
     const ScratchFolder scratch;

@@ -2,9 +2,10 @@
 
 #include "output_file.h"
 
+#include "tilepack/measure/image_metrics.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/scanline/view_render.h"
-#include "tilepack/verify/image_metrics.h"
+#include "tilepack/scanline/span_method.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -173,7 +174,7 @@ std::vector<HardFigures> hard_figures() {
   std::vector<HardFigures> all;
   for (const HardCase& hard : hard_cases()) {
     HardFigures figures{hard.name, {}, {}};
-    for (Contestant c : all_contestants) {
+    for (StepMethod c : all_contestants) {
       figures.f32.push_back(run_contestant(c, hard, SpanPrecision::f32));
       figures.f64.push_back(run_contestant(c, hard, SpanPrecision::f64));
     }

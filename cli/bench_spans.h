@@ -2,7 +2,7 @@
 
 #include "console.h"
 
-#include "tilepack/scanline/span_study.h"
+#include "tilepack/bench/span_study.h"
 #include "tilepack/scanline/view_spans.h"
 
 #include <optional>
@@ -24,7 +24,7 @@ struct SpanFigures {
 
 struct HardFigures {
   std::string name;
-  std::vector<HardResult> f32, f64; ///< a Contestant each
+  std::vector<HardResult> f32, f64; ///< a StepMethod each
 };
 
 /// The ground seen in 1920 x 1080 (quick: 480 x 270), the camera rolled so that scanlines run towards the

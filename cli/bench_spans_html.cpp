@@ -90,7 +90,7 @@ std::string method_table(const SpanBench& bench) {
 std::string hard_table(const SpanBench& bench) {
   std::string html = "<table>\n";
   std::vector<std::string> head{"case"};
-  for (Contestant c : all_contestants) head.push_back(std::string(name_of(c)));
+  for (StepMethod c : all_contestants) head.push_back(std::string(name_of(c)));
   html += row(head, "th");
   const auto cell = [](const HardResult& single, const HardResult& full) {
     const bool bad = !std::isfinite(single.relative) || single.pixels > 1;

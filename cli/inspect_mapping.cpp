@@ -1,6 +1,6 @@
 #include "inspect_mapping.h"
 
-#include "tilepack/mapping/survey.h"
+#include "tilepack/measure/mapping_survey.h"
 
 namespace tilepack::cli {
 namespace {
@@ -19,10 +19,10 @@ std::string mapping_report(const Pack& pack, const std::string& format) {
   return format == "json" ? survey_json(survey) : survey_text(survey);
 }
 
-Drawing mapping_drawing(const Pack& pack) {
+VectorDrawing mapping_drawing(const Pack& pack) {
   const std::vector<SurveyedMapping> survey = survey_of(pack);
   const SurveySheet sheet = survey_sheet(survey, pack.colors, cells, pixels);
-  Drawing drawing{sheet.picture, {}, {}};
+  VectorDrawing drawing{sheet.picture, {}, {}};
   for (std::size_t i = 0; i < survey.size(); ++i) {
     const Rect panel = sheet.panels[i];
     const DrawingPoint below{panel.x + panel.width / 2.0, panel.y + panel.height * 1.09};

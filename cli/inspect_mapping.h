@@ -3,7 +3,7 @@
 #include "console.h"
 
 #include "tilepack/pack/pack.h"
-#include "tilepack/verify/drawing.h"
+#include "tilepack/report/vector_drawing.h"
 
 #include <string>
 
@@ -15,6 +15,6 @@ std::string mapping_report(const Pack& pack, const std::string& format);
 
 /// The same as pictures, a pixel block a cell, each tile its own color: the pack's own first, then the others
 /// in the order of the report. Tables have their number of entries below.
-Drawing mapping_drawing(const Pack& pack);
+VectorDrawing mapping_drawing(const Pack& pack);
 
 } // namespace tilepack::cli

@@ -30,7 +30,7 @@ const Verb* find_verb(const std::string& name) {
 std::string listing() {
   std::string text =
       "tilepack turns texture samples into tile packs, and renders, measures and checks them.\n\n"
-      "Usage: tilepack VERB [OPTIONS]\n\nVerbs:\n";
+      "UseCounts: tilepack VERB [OPTIONS]\n\nVerbs:\n";
   for (const Verb& verb : verb_table()) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
   text += fmt::format("  {:<10} {}\n", "help", "this list, or the help of one verb: tilepack help VERB");
   text +=

@@ -136,7 +136,7 @@ void refuse_window_options(const CLI::App& app) {
 }
 
 int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
-                  const std::string& filter, Border border, const std::string& output, Console& console) {
+                  const std::string& filter, WrapMode border, const std::string& output, Console& console) {
   if (arguments.span_error > 0 && arguments.reseed > 0) {
     throw Error(ErrorKind::usage, "--span-error", "chooses --reseed; give one of the two");
   }

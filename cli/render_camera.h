@@ -33,6 +33,6 @@ void refuse_window_options(const CLI::App& app); ///< for views: --rect, --level
 
 /// Renders the view and writes it. `filter`: trilinear or anisotropic.
 int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
-                  const std::string& filter, Border border, const std::string& output, Console& console);
+                  const std::string& filter, WrapMode border, const std::string& output, Console& console);
 
 } // namespace tilepack::cli

@@ -6,16 +6,16 @@
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/bake.h"
+#include "tilepack/bake/bake_fields.h"
+#include "tilepack/bake/preset.h"
 #include "tilepack/error/error.h"
 #include "tilepack/error/nearest_name.h"
 #include "tilepack/image/staged_file.h"
-#include "tilepack/pack/bake.h"
-#include "tilepack/pack/bake_fields.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/pack_write.h"
-#include "tilepack/pack/preset.h"
-#include "tilepack/verify/bake_page.h"
-#include "tilepack/verify/pack_summary.h"
+#include "tilepack/report/bake_page.h"
+#include "tilepack/report/pack_summary.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -184,7 +184,7 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   const BakedPack made = baked(samples, options, progress);
   const double bake_seconds = watch.lap();
   // What the report says is found while files are written.
-  BakeStory story{fs::path(arguments.sample).filename().string(), {}, {}};
+  BakeSummary story{fs::path(arguments.sample).filename().string(), {}, {}};
   tbb::task_group figures;
   figures.run([&] { story.facts = bake_facts(made, samples); });
   const PackDescription description = described(made.pack);

@@ -3,8 +3,8 @@
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
+#include "tilepack/measure/comparison.h"
 #include "tilepack/pack/pack_read.h"
-#include "tilepack/verify/comparison.h"
 
 #include <fmt/format.h>
 

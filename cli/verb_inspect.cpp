@@ -8,8 +8,8 @@
 #include "tilepack/mapping/index_json.h"
 #include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_read.h"
-#include "tilepack/verify/pack_picture.h"
-#include "tilepack/verify/pack_summary.h"
+#include "tilepack/report/pack_picture.h"
+#include "tilepack/report/pack_summary.h"
 
 #include <fmt/format.h>
 
@@ -61,7 +61,7 @@ void check_outputs_of(const InspectArguments& a) {
                 files_of_pack(a.pack));
 }
 
-void write_drawing(const OutputFile& output, const Drawing& drawing) {
+void write_drawing(const OutputFile& output, const VectorDrawing& drawing) {
   const std::string& file = output.file;
   const std::string extension = fs::path(file).extension().string();
   if (extension == ".svg")

@@ -1,8 +1,8 @@
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/round_trip.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/pack/round_trip.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,8 +26,8 @@ struct LayoutsArguments {
   std::string sample; ///< advice: measure the loss on it
 };
 
-PlanRequest request_for(int tiles, const LayoutsArguments& arguments) {
-  PlanRequest request;
+LayoutRequest request_for(int tiles, const LayoutsArguments& arguments) {
+  LayoutRequest request;
   request.tiles = tiles;
   request.tile_side = arguments.tile_side;
   request.gutter = arguments.gutter;
@@ -51,7 +51,7 @@ double padding(int tiles, int tile_side) {
   return share(padded - std::int64_t{tiles} * tile_side * tile_side, padded);
 }
 
-Json plan_json(const LayoutPlan& plan) {
+Json plan_json(const LayoutCandidate& plan) {
   const std::int64_t texels = std::int64_t{plan.size.width} * plan.size.height;
   return {{"scheme", formula(plan.scheme)},
           {"n", plan.scheme.n},
@@ -65,7 +65,7 @@ Json plan_json(const LayoutPlan& plan) {
           {"wasted_percent", share(plan.wasted, texels)}};
 }
 
-std::vector<RoundTrip> losses(const LayoutPlan& plan, const LayoutsArguments& arguments) {
+std::vector<RoundTrip> losses(const LayoutCandidate& plan, const LayoutsArguments& arguments) {
   if (arguments.sample.empty()) return {};
   ImageFile file = read_image(arguments.sample);
   const SampleMap sample{arguments.sample, Role::color, file.encoding, file.depth, std::move(file.image)};
@@ -74,7 +74,7 @@ std::vector<RoundTrip> losses(const LayoutPlan& plan, const LayoutsArguments& ar
 
 Json row_json(int tiles, const LayoutsArguments& arguments) {
   Json plans = Json::array();
-  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments))) {
+  for (const LayoutCandidate& plan : layout_plans(request_for(tiles, arguments))) {
     Json json = plan_json(plan);
     for (const RoundTrip& trip : losses(plan, arguments))
       json["psnr"][std::string(name_of(trip.filter))] = trip.psnr ? Json(*trip.psnr) : Json(nullptr);
@@ -86,7 +86,7 @@ Json row_json(int tiles, const LayoutsArguments& arguments) {
           {"padded_percent", padding(tiles, arguments.tile_side)}};
 }
 
-std::string plan_text(const LayoutPlan& plan) {
+std::string plan_text(const LayoutCandidate& plan) {
   const std::int64_t texels = std::int64_t{plan.size.width} * plan.size.height;
   return fmt::format("{:<18} {:>6.2f}°  {:>5} x {:<5}  {:>6.2f} %  {}", formula(plan.scheme),
                      angle_in_degrees(plan.scheme), plan.size.width, plan.size.height,
@@ -99,7 +99,7 @@ std::string table_text(const std::vector<int>& counts, const LayoutsArguments& a
                   "tiles  scheme              angle    texture          waste  stored   padded  nested\n",
                   arguments.tile_side, arguments.gutter);
   for (const int tiles : counts) {
-    const LayoutPlan best = layout_plans(request_for(tiles, arguments)).front();
+    const LayoutCandidate best = layout_plans(request_for(tiles, arguments)).front();
     text += fmt::format("{:>5}  {}  {:>6.2f} %  {}\n", tiles, plan_text(best),
                         padding(tiles, arguments.tile_side), nesting(best.scheme));
   }
@@ -110,7 +110,7 @@ std::string advice_text(int tiles, const LayoutsArguments& arguments) {
   std::string text =
       fmt::format("{0} tiles of {1} x {1} texels, best first:\n\n", tiles, arguments.tile_side);
   int place = 1;
-  for (const LayoutPlan& plan : layout_plans(request_for(tiles, arguments))) {
+  for (const LayoutCandidate& plan : layout_plans(request_for(tiles, arguments))) {
     text += fmt::format("  {}  {}  --layout rotated --scheme {},{}{}\n", place++, plan_text(plan),
                         plan.scheme.n, plan.scheme.k, plan.scheme.squares == 2 ? ",2" : "");
     for (const RoundTrip& trip : losses(plan, arguments))

@@ -5,12 +5,12 @@
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/bake_fields.h"
+#include "tilepack/bake/hand_drawn_set.h"
 #include "tilepack/error/error.h"
-#include "tilepack/pack/bake_fields.h"
-#include "tilepack/pack/drawn_set.h"
 #include "tilepack/pack/pack_write.h"
+#include "tilepack/report/pack_summary.h"
 #include "tilepack/tileset/border_agreement.h"
-#include "tilepack/verify/pack_summary.h"
 
 #include <fmt/format.h>
 
@@ -94,7 +94,7 @@ int run_pack(const PackArguments& arguments, Console& console) {
   check_pack_folder_for(arguments.folder, arguments.tiles);
   const TileColors tiles = parsed_color_list(text_of(arguments.colors), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);
-  std::vector<Drawing> drawings;
+  std::vector<HandDrawnTile> drawings;
   const Role role = role_of(arguments.role);
   for (const std::string& file : arguments.tiles)
     drawings.push_back(

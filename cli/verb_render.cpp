@@ -7,6 +7,7 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/sampler/render.h"
+#include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
 
@@ -59,7 +60,7 @@ Filter filter_of(const std::string& name) {
               fmt::format("'{}' is no filter; there are nearest, bilinear, trilinear and elliptical", name));
 }
 
-Border border_of(const std::string& name) {
+WrapMode border_of(const std::string& name) {
   if (const auto border = border_named(name)) return *border;
   throw Error(ErrorKind::usage, "--border", fmt::format("'{}'; it is wrap, clamp or mirror", name));
 }
@@ -123,7 +124,7 @@ RenderTarget target_for(const std::string& file, const PackedMap& map, const std
 
 int run_render(const RenderArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
-  const Border border = border_of(arguments.border);
+  const WrapMode border = border_of(arguments.border);
   std::vector<std::string> inputs = files_of_pack(arguments.pack);
   if (!arguments.view.mesh.empty()) inputs.push_back(arguments.view.mesh);
   check_outputs(std::vector<OutputFile>{{"--output", arguments.output}}, inputs);

@@ -2,9 +2,9 @@
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/check/folder_checks.h"
+#include "tilepack/measure/against_reference.h"
 #include "tilepack/pack/pack_read.h"
-#include "tilepack/verify/against_reference.h"
-#include "tilepack/verify/folder_checks.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,11 @@
+#include "tilepack/bake/bake_options.h"
 // Bakes an image into tiles and prints what lies at some points of the endless texture they make:
 //   look_up SAMPLE.png
 #include <array>
 #include <cstdio>
+#include <tilepack/bake/bake.h>
 #include <tilepack/error/error.h>
 #include <tilepack/image/image_file.h>
-#include <tilepack/pack/bake.h>
 #include <tilepack/sampler/reference_sampler.h>
 #include <vector>
 

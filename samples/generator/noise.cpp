@@ -1,6 +1,6 @@
 #include "noise.h"
 
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 
 #include <algorithm>
 #include <cmath>

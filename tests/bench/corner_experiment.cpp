@@ -6,13 +6,14 @@
 // Prints the largest and the RMS error of the three in 8-bit steps, level by level, over the whole texture,
 // and draws a piece of level 2 magnified: without handling, corner pack alone, blended, truth.
 
+#include "tilepack/bake/packing.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/image/wrap.h"
-#include "tilepack/pack/packing.h"
+#include "tilepack/numeric/random.h"
+#include "tilepack/numeric/wrap.h"
 #include "tilepack/sampler/corner_blend.h"
 #include "tilepack/sampler/reference_sampler.h"
 #include "tilepack/sampler/virtual_texture.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
 

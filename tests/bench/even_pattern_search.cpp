@@ -8,7 +8,7 @@
 // corner after the other is recolored at random; what worsens the sum below by more than a threshold, which
 // falls to nothing, is taken back. Everything counted is an integer, so taking back is exact.
 
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 
 #include <algorithm>
 #include <array>

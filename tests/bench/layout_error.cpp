@@ -8,14 +8,13 @@
 // filter stays in one tile), edge (it crosses a border), corner (it crosses one and reads a texel in a tile's
 // corner).
 
+#include "tilepack/bake/packing.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/image/wrap.h"
-#include "tilepack/pack/packing.h"
+#include "tilepack/numeric/wrap.h"
 #include "tilepack/sampler/reference_sampler.h"
 #include "tilepack/sampler/virtual_texture.h"
 #include "tilepack/synth/synthesize.h"
 #include "tilepack/tileset/sequential_set.h"
-#include "tilepack/tileset/subset.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -31,6 +30,19 @@
 using namespace tilepack;
 
 namespace {
+
+// The tiles of `wanted` alone, of a complete edge-colored set.
+TileSet subset(const TileSet& set, const TileColors& wanted) {
+  TileSet result{set.tile_size, set.colors, wanted, {}, set.guard};
+  for (const TileMap& map : set.maps) {
+    TileMap& chosen = result.maps.emplace_back(TileMap{map.name, map.role, map.encoding, map.depth, {}});
+    for (const EdgeTile& tile : std::get<std::vector<EdgeTile>>(wanted)) {
+      const int id = id_in_complete_set(tile, set.colors.horizontal, set.colors.vertical);
+      chosen.tiles.push_back(map.tiles[static_cast<std::size_t>(id)]);
+    }
+  }
+  return result;
+}
 
 constexpr int cells = 16; // a side of the virtual texture looked at
 
@@ -116,7 +128,7 @@ void print_row(int colors, const std::string& name, const TileSet& set, const Pa
              texels_stored(pack), errors.interior, errors.edge, errors.corner);
 }
 
-TileSet synthesized(const SampleMap& sample, Coloring coloring, Interior interior, int colors,
+TileSet synthesized(const SampleMap& sample, Coloring coloring, Construction interior, int colors,
                     int tile_side) {
   SynthOptions options;
   options.tile_size = {tile_side, tile_side};
@@ -146,8 +158,8 @@ int main(int argc, char** argv) {
       options.virtual_size = {cells, cells};
       options.mapping = MappingKind::mix;
       // Quilted tiles leave their corners free; those with an inside of their own share one corner patch.
-      const TileSet quilted = synthesized(sample, Coloring::edge, Interior::quilt, colors, side);
-      const TileSet edges = synthesized(sample, Coloring::edge, Interior::patch, colors, side);
+      const TileSet quilted = synthesized(sample, Coloring::edge, Construction::quilt, colors, side);
+      const TileSet edges = synthesized(sample, Coloring::edge, Construction::framed, colors, side);
       print_row(colors, "tile-index, quilted", quilted, options);
       options.corner_pack = true;
       print_row(colors, "tile-index, quilted, and corner pack", quilted, options);
@@ -159,7 +171,7 @@ int main(int argc, char** argv) {
       options.border = 0;
       options.layout = LayoutKind::de_bruijn;
       print_row(colors, "de-bruijn, corner colors",
-                synthesized(sample, Coloring::corner, Interior::patch, colors, side), options);
+                synthesized(sample, Coloring::corner, Construction::framed, colors, side), options);
       options.layout = LayoutKind::rotated;
       options.mapping = MappingKind::index;
       const TileSet few = subset(edges, sequential_edge_set(colors, colors));

@@ -15,8 +15,8 @@
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/mapping.h"
+#include "tilepack/mip/border_path.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/mip/tile_frame.h"
 #include "tilepack/synth/synthesize.h"
 
 #include <fmt/format.h>
@@ -203,7 +203,7 @@ struct Settings {
   int guard = 0;
   int colors = 2;
   bool corner = false;
-  Interior interior = Interior::patch;
+  Construction interior = Construction::framed;
   Depth depth = Depth::u8;
   std::vector<std::string> images;
 };
@@ -221,7 +221,7 @@ Settings settings_of(int argc, char** argv) {
     else if (a == "--corner")
       s.corner = true;
     else if (a == "--quilt")
-      s.interior = Interior::quilt;
+      s.interior = Construction::quilt;
     else if (a == "--float")
       s.depth = Depth::f32;
     else

@@ -5,7 +5,7 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -31,7 +31,7 @@ class Bake(CommandCase):
         self.assertIn("out: 16 tiles of 16 x 16 texels", self.bake().stdout)
 
     def test_packs_follow_the_schema(self):
-        with open(os.path.join(SOURCE, "lib/pack/pack.schema.json"), encoding="utf-8") as stream:
+        with open(os.path.join(SOURCE, "lib/tilepack/pack/pack.schema.json"), encoding="utf-8") as stream:
             schema = json.load(stream)
         jsonschema.Draft202012Validator.check_schema(schema)
         validator = jsonschema.Draft202012Validator(schema)
@@ -44,7 +44,7 @@ class Bake(CommandCase):
                 validator.validate(self.pack())
 
     def test_schema_and_program_refuse_the_same(self):
-        with open(os.path.join(SOURCE, "lib/pack/pack.schema.json"), encoding="utf-8") as stream:
+        with open(os.path.join(SOURCE, "lib/tilepack/pack/pack.schema.json"), encoding="utf-8") as stream:
             validator = jsonschema.Draft202012Validator(json.load(stream))
         self.bake("--mapping", "permutation", "--coloring", "edge")
         good = self.pack()

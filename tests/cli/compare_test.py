@@ -15,7 +15,7 @@ from png_image import read_png, write_png
 class Compare(CommandCase):
     def setUp(self):
         super().setUp()
-        with open(os.path.join(SOURCE, "lib/verify/compare.schema.json"), encoding="utf-8") as stream:
+        with open(os.path.join(SOURCE, "lib/tilepack/measure/compare.schema.json"), encoding="utf-8") as stream:
             self.schema = json.load(stream)
         source = random.Random(3)
         rows = [[source.randint(20, 230) for _ in range(64 * 3)] for _ in range(64)]

@@ -1,4 +1,4 @@
-"""Samples packs by what lib/pack/FORMAT.md says alone, and compares with tilepack render."""
+"""Samples packs by what lib/tilepack/pack/FORMAT.md says alone, and compares with tilepack render."""
 
 import json
 import os
@@ -125,7 +125,7 @@ class Format(CommandCase):
                     self.assertEqual(rows[j], expected, f"row {j}")
 
     def test_the_examples_of_the_page(self):
-        with open(os.path.join(SOURCE, "lib/pack/FORMAT.md"), encoding="utf-8") as stream:
+        with open(os.path.join(SOURCE, "lib/tilepack/pack/FORMAT.md"), encoding="utf-8") as stream:
             page = stream.read().split("## Example", 1)[1]
         # An ellipsis stands for entries left out.
         corner, edge = (json.loads(re.sub(r",\s*…", "", text)) for text in re.findall(r"```json\n(.*?)```", page, re.DOTALL))

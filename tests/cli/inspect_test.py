@@ -24,7 +24,7 @@ def magnified(rows, channels, factor):
 class Inspect(CommandCase):
     def setUp(self):
         super().setUp()
-        with open(os.path.join(SOURCE, "lib/verify/inspect.schema.json"), encoding="utf-8") as stream:
+        with open(os.path.join(SOURCE, "lib/tilepack/report/inspect.schema.json"), encoding="utf-8") as stream:
             self.schema = json.load(stream)
         self.noise_png("sample.png")
         self.run_tilepack("bake", "sample.png", "-o", "pack", "--tile-size", 32, "--colors", "2x3", "--virtual-size",

@@ -14,7 +14,7 @@ from png_image import read_png, write_png
 class Validate(CommandCase):
     def setUp(self):
         super().setUp()
-        with open(os.path.join(SOURCE, "lib/verify/report.schema.json"), encoding="utf-8") as stream:
+        with open(os.path.join(SOURCE, "lib/tilepack/check/report.schema.json"), encoding="utf-8") as stream:
             self.schema = json.load(stream)
         self.noise_png("sample.png")
         self.run_tilepack("bake", "sample.png", "-o", "good", "--tile-size", 16, "--virtual-size", 16, "--effort", 0,

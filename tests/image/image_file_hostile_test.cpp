@@ -1,5 +1,5 @@
-#include "image/foreign_file.h"
-#include "scratch_folder.h"
+#include "support/foreign_file.h"
+#include "support/scratch_folder.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"

@@ -24,7 +24,7 @@ foreach(file ${package})
     endif()
   endforeach()
 endforeach()
-foreach(file bin/tilepack include/tilepack/pack/bake.h share/tilepack/pack.schema.json
+foreach(file bin/tilepack include/tilepack/bake/bake.h share/tilepack/pack.schema.json
              share/tilepack/presets/default.json)
   if(NOT EXISTS ${WORK}/moved/${file})
     message(FATAL_ERROR "${file} is not installed")

@@ -1,7 +1,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/layout/arrangement.h"
 #include "tilepack/layout/rotated_lattice.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 #include "tilepack/tileset/sequential_set.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "tilepack/error/error.h"
-#include "tilepack/image/wrap.h"
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
+#include "tilepack/numeric/wrap.h"
 
 #include <catch2/catch.hpp>
 #include <set>

@@ -6,7 +6,7 @@
 #include "tilepack/layout/rotated_layout.h"
 #include "tilepack/layout/surroundings.h"
 #include "tilepack/layout/tile_index.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 #include "tilepack/tileset/sequential_set.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "tilepack/error/error.h"
-#include "tilepack/image/wrap.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/mapping.h"
+#include "tilepack/numeric/wrap.h"
 
 #include <algorithm>
 #include <array>

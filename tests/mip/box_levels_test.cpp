@@ -1,7 +1,7 @@
 #include "tilepack/mip/box_levels.h"
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/mip/value_space.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 
 #include <tbb/global_control.h>
 

@@ -1,9 +1,9 @@
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
-#include "tilepack/mip/border_keys.h"
+#include "tilepack/mip/border_path.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/mip/tile_frame.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
+#include "tilepack/tileset/border_keys.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

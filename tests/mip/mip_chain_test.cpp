@@ -1,6 +1,6 @@
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/mip/shared_border.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 
 #include <tbb/global_control.h>
 

@@ -1,7 +1,7 @@
 #include "tilepack/image/encoding.h"
 #include "tilepack/mip/downsample.h"
 #include "tilepack/mip/srgb_tables.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "tilepack/mip/alpha_coverage.h"
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/mip/normal_variance.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,13 +1,13 @@
-#include "scratch_folder.h"
+#include "support/scratch_folder.h"
 // Packs with a changed pack.json: whatever the change, reading either refuses it as invalid or unreadable, or
 // gives a pack that can be sampled anywhere. Under the sanitizers this finds reads out of bounds.
 
-#include "noise_pack.h"
+#include "support/noise_pack.h"
 
+#include "tilepack/bake/packing.h"
 #include "tilepack/error/error.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/pack_write.h"
-#include "tilepack/pack/packing.h"
 #include "tilepack/sampler/reference_sampler.h"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "noise_pack.h"
+#include "support/noise_pack.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/pack/pack_json.h"

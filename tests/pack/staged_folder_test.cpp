@@ -1,5 +1,5 @@
-#include "noise_pack.h"
-#include "scratch_folder.h"
+#include "support/noise_pack.h"
+#include "support/scratch_folder.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/pack/staged_folder.h"

@@ -1,11 +1,11 @@
-#include "noise_pack.h"
-#include "scratch_folder.h"
+#include "support/noise_pack.h"
+#include "support/scratch_folder.h"
 
+#include "tilepack/bake/packing.h"
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/pack_write.h"
-#include "tilepack/pack/packing.h"
 
 #include <tbb/global_control.h>
 

@@ -1,3 +1,4 @@
+#include "tilepack/tileset/source_map.h"
 #include "border_contrast.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "patch_coherence.h"
 
-#include "tilepack/tileset/random.h"
+#include "tilepack/numeric/random.h"
+#include "tilepack/tileset/source_map.h"
 
 #include <tbb/parallel_for.h>
 

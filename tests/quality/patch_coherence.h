@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tilepack/synth/feature_image.h"
-#include "tilepack/synth/source_map.h"
+#include "tilepack/exemplar/feature_image.h"
+#include "tilepack/tileset/source_map.h"
 
 #include <cstdint>
 

@@ -10,11 +10,11 @@
 #include "border_contrast.h"
 #include "patch_coherence.h"
 
+#include "tilepack/bake/bake.h"
+#include "tilepack/bake/bake_fields.h"
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/pack/bake.h"
-#include "tilepack/pack/bake_fields.h"
-#include "tilepack/verify/seams.h"
+#include "tilepack/measure/seams.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -8,8 +8,9 @@ import unittest
 SOURCE = os.environ["TILEPACK_SOURCE"]
 TILEPACK = os.environ["TILEPACK"]
 
-# From low to high: a folder of lib/ includes only itself and those before it.
-FOLDERS = "error image tileset synth layout mip mapping pattern pack sampler scanline verify".split()
+# From low to high: a room of lib/tilepack/ includes only itself and those before it.
+ROOMS = ("error numeric json image tileset exemplar match seam synth layout mip mapping pack lookup sampler scanline pattern shader "
+         "bake batch check measure bench report").split()
 CODE = (".h", ".cpp", ".cpp.in", ".py", ".sh")
 
 
@@ -30,19 +31,54 @@ class Rules(unittest.TestCase):
     def none_of(self, faults, rule):
         self.assertEqual(faults, [], rule)
 
-    def test_folders_include_only_lower_ones(self):
+    def test_rooms_include_only_lower_ones(self):
         faults = []
-        self.assertGreater(len(files(".h", below="lib")), 30)
-        for path, text in files(".h", ".cpp", ".cpp.in", below="lib"):
-            folder = path.split(os.sep)[1]
-            self.assertIn(folder, FOLDERS, path)
+        self.assertGreater(len(files(".h", below="lib/tilepack")), 30)
+        for path, text in files(".h", ".cpp", ".cpp.in", below="lib/tilepack"):
+            folder = path.split(os.sep)[2]
+            self.assertIn(folder, ROOMS, path)
             for included in re.findall(r'#\s*include\s+"([^"]*)"', text):
                 parts = included.split("/")
                 if parts[0] != "tilepack" or len(parts) != 3:
                     faults.append(f'{path}: "{included}" is not "tilepack/FOLDER/FILE.h"')
-                elif FOLDERS.index(parts[1]) > FOLDERS.index(folder):
+                elif ROOMS.index(parts[1]) > ROOMS.index(folder):
                     faults.append(f"{path}: includes {included}, which is above it")
-        self.none_of(faults, "the order of folders is " + " ".join(FOLDERS))
+        self.none_of(faults, "the order of rooms is " + " ".join(ROOMS))
+
+    def test_no_headers_include_each_other_in_a_circle(self):
+        includes = {}
+        for path, text in files(".h", ".cpp", below="lib/tilepack"):
+            pair = re.sub(r"\.(h|cpp)$", "", path.split(os.sep, 2)[2])
+            found = set(re.findall(r'#\s*include\s+"tilepack/([^"]*)\.h"', text))
+            includes.setdefault(pair, set()).update(found - {pair})
+        self.assertGreater(len(includes), 100)
+        done, faults = set(), []
+
+        def visit(pair, way):
+            if pair in way:
+                faults.append(" -> ".join([*way[way.index(pair):], pair]))
+            elif pair not in done:
+                for lower in sorted(includes.get(pair, ())):
+                    visit(lower, [*way, pair])
+                done.add(pair)
+
+        for pair in sorted(includes):
+            visit(pair, [])
+        self.none_of(faults, "a header and its source are one; no such pairs include each other, directly or through others")
+
+    def test_type_names_are_unique(self):
+        homes, faults = {}, []
+        for path, text in files(".h", below="lib/tilepack"):
+            for name in re.findall(r"^(?:struct|class|enum class)\s+(\w+)[^;{]*\{", text, re.MULTILINE):
+                homes.setdefault(name, set()).add(path)
+        self.assertGreater(len(homes), 100)
+        faults = [f"{name}: {', '.join(sorted(paths))}" for name, paths in homes.items() if len(paths) > 1]
+        self.none_of(faults, "a name stands for one type (two would break the one-definition rule)")
+
+    def test_the_top_level_holds_the_few_folders_it_should(self):
+        allowed = {"cli", "lib", "presets", "tests", "samples", "build", "out"}
+        found = {name for name in os.listdir(SOURCE) if os.path.isdir(os.path.join(SOURCE, name)) and not name.startswith(".")}
+        self.none_of(sorted(found - allowed), "the top level holds " + " ".join(sorted(allowed)))
 
     def test_the_library_knows_nothing_of_the_command_line(self):
         faults = [path for path, text in files(".h", ".cpp", below="lib")

@@ -1,8 +1,8 @@
-#include "sampler/small_pack.h"
+#include "support/small_pack.h"
 
+#include "tilepack/bake/packing.h"
 #include "tilepack/error/error.h"
 #include "tilepack/layout/de_bruijn.h"
-#include "tilepack/pack/packing.h"
 #include "tilepack/sampler/fast_sampler.h"
 #include "tilepack/sampler/ground_truth.h"
 #include "tilepack/sampler/reference_sampler.h"

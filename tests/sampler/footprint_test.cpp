@@ -1,4 +1,4 @@
-#include "sampler/small_pack.h"
+#include "support/small_pack.h"
 
 #include "tilepack/sampler/footprint.h"
 #include "tilepack/sampler/ground_truth.h"
@@ -22,7 +22,7 @@ Footprint turned(double major, double minor, double u_angle, double v_angle) {
 }
 
 std::vector<double> sampled(const Pack& pack, TileCoordinate x, TileCoordinate y, const Footprint& footprint,
-                            Border border = Border::wrap) {
+                            WrapMode border = WrapMode::wrap) {
   std::vector<double> out(static_cast<std::size_t>(pack.maps[0].channels));
   ReferenceSampler(pack, 0, default_corner_width, border).sample(x, y, footprint, out);
   return out;
@@ -129,7 +129,7 @@ TEST_CASE("the ground truth's ellipses are sums over the texture written out, at
   const FootprintEllipse e = ellipse_of(f, pack.tile_size);
   REQUIRE(level_of(e) == 0.0);
   const auto tiles = tile_set_of(pack).maps[0].tiles;
-  for (const Border border : {Border::wrap, Border::clamp, Border::mirror}) {
+  for (const WrapMode border : {WrapMode::wrap, WrapMode::clamp, WrapMode::mirror}) {
     const GroundTruth truth = GroundTruth::of_stored_levels(pack, 0, border);
     constexpr int margin = 8;
     const Image written = virtual_texture(

@@ -1,4 +1,4 @@
-#include "sampler/small_pack.h"
+#include "support/small_pack.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/sampler/ground_truth.h"

@@ -1,6 +1,6 @@
-#include "sampler/framed_set.h"
+#include "support/framed_pack.h"
 
-#include "tilepack/image/wrap.h"
+#include "tilepack/numeric/wrap.h"
 #include "tilepack/sampler/reference_sampler.h"
 #include "tilepack/sampler/virtual_texture.h"
 #include "tilepack/tileset/sequential_set.h"

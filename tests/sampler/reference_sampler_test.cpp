@@ -1,7 +1,7 @@
-#include "sampler/small_pack.h"
+#include "support/small_pack.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/image/wrap.h"
+#include "tilepack/numeric/wrap.h"
 #include "tilepack/sampler/reference_sampler.h"
 
 #include <array>

@@ -1,5 +1,5 @@
+#include "tilepack/numeric/random.h"
 #include "tilepack/scanline/coverage.h"
-#include "tilepack/tileset/random.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include "tilepack/numeric/random.h"
 #include "tilepack/scanline/recurrence.h"
-#include "tilepack/tileset/random.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,7 +1,8 @@
 #include "tilepack/error/error.h"
+#include "tilepack/numeric/random.h"
 #include "tilepack/scanline/span_batch.h"
 #include "tilepack/scanline/span_constants.h"
-#include "tilepack/tileset/random.h"
+#include "tilepack/scanline/span_method.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "sampler/small_pack.h"
+#include "support/small_pack.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/scanline/view_render.h"
@@ -216,7 +216,7 @@ TEST_CASE("a view straight down at a pixel a texel shows the texture itself") {
   const Pack pack = small_pack();
   // 8 texels a tile, a tile a unit; 48 pixels see 6 units at distance 3 with 90 degrees.
   const Camera camera{{3, 3, 3}, {3, 0, 3}, {0, 0, -1}, 90};
-  for (ViewFilter filter : {ViewFilter::trilinear, ViewFilter::anisotropic, ViewFilter::elliptical}) {
+  for (ViewFilter filter : {ViewFilter::trilinear, ViewFilter::anisotropic, ViewFilter::ewa}) {
     ViewOptions options;
     options.filter = filter;
     const ViewRenderer view(pack, 0, ground(), camera, {48, 48}, options, stored);

@@ -1,4 +1,4 @@
-#include "samples.h"
+#include "support/samples.h"
 
 #include "tilepack/image/image.h"
 #include "tilepack/synth/border_step.h"
@@ -176,8 +176,8 @@ SourceCanvas with_seam(SourceTexel shift) {
   return canvas;
 }
 
-Usage unused(const FeatureImage& image) {
-  Usage usage(image.width, image.height);
+UseCounts unused(const FeatureImage& image) {
+  UseCounts usage(image.width, image.height);
   usage.prepare();
   return usage;
 }
@@ -192,10 +192,10 @@ TEST_CASE("mending never raises the seam energy, and both mending and polishing 
   std::vector<std::uint8_t> fixed(start.texels.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = i % 48 < 22 || i % 7 == 0;
   SourceCanvas mended = start;
-  mend_spots(pyramid, search, unused(pyramid.back()), {}, fixed, {}, mended);
+  replace_worst_patches(pyramid, search, unused(pyramid.back()), {}, fixed, {}, mended);
   CHECK(seam_energy(pyramid[0], mended) < seam_energy(pyramid[0], start));
   std::vector<SourceCanvas> polished{start};
-  polish(pyramid[0], contrast_ranks(pyramid[0]), 1, fixed, {0, 0, 48, 40}, {}, polished);
+  match_and_vote(pyramid[0], contrast_ranks(pyramid[0]), 1, fixed, {0, 0, 48, 40}, {}, polished);
   CHECK(polished[0].texels != start.texels);
   for (std::size_t i = 0; i < fixed.size(); ++i)
     if (fixed[i]) CHECK((mended.texels[i] == start.texels[i] && polished[0].texels[i] == start.texels[i]));
@@ -206,7 +206,7 @@ TEST_CASE("mending takes windows that are not shown yet, where they are as like"
   const FeatureImage image = feature_image(std::span(&map, 1));
   const FeaturePyramid pyramid(image);
   const PatchSearch search(pyramid.back());
-  Usage usage(128, 128);
+  UseCounts usage(128, 128);
   usage.add({0, 0, 128, 64}, 3.0);
   usage.add({0, 64, 64, 64}, 3.0);
   usage.prepare();
@@ -214,10 +214,10 @@ TEST_CASE("mending takes windows that are not shown yet, where they are as like"
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 56; ++x) canvas.at(x, y) = x < 28 ? SourceTexel{x, y} : SourceTexel{x - 28, y + 12};
   const std::vector<std::uint8_t> fixed(canvas.texels.size(), 0);
-  MendOptions options;
+  SeamRepairOptions options;
   options.spots = 2;
   options.window = 24;
-  mend_spots(pyramid, search, usage, {}, fixed, options, canvas);
+  replace_worst_patches(pyramid, search, usage, {}, fixed, options, canvas);
   std::size_t shown_before = 0;
   std::size_t fresh = 0;
   for (int y = 0; y < 40; ++y)
@@ -241,7 +241,7 @@ TEST_CASE("polishing at half size changes texels near a seam to others of the sa
       fixed[start.index(x, y)] = x < 46;
     }
   std::vector<SourceCanvas> polished{start};
-  polish(halved(image), contrast_ranks(halved(image)), 2, fixed, {0, 0, 96, 80}, {}, polished);
+  match_and_vote(halved(image), contrast_ranks(halved(image)), 2, fixed, {0, 0, 96, 80}, {}, polished);
   CHECK(polished[0].texels != start.texels);
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     const SourceTexel s = polished[0].texels[i];
@@ -280,10 +280,10 @@ TEST_CASE("passes of polishing make squares more like the sample's, and leave al
   const std::vector<std::uint8_t> fixed(start.texels.size(), 0);
   const Rect all{0, 0, 48, 40};
   const auto polished = [&](int passes) {
-    PolishOptions options;
+    PatchMatchOptions options;
     options.passes = passes;
     std::vector<SourceCanvas> canvases{start};
-    polish(image, contrast_ranks(image), 1, fixed, all, options, canvases);
+    match_and_vote(image, contrast_ranks(image), 1, fixed, all, options, canvases);
     return unlikeness(image, canvases[0]);
   };
   const double once = polished(1);
@@ -294,7 +294,7 @@ TEST_CASE("passes of polishing make squares more like the sample's, and leave al
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 48; ++x) whole[0].at(x, y) = {x + 5, y + 7};
   const auto before = whole[0].texels;
-  polish(image, contrast_ranks(image), 1, fixed, all, {}, whole);
+  match_and_vote(image, contrast_ranks(image), 1, fixed, all, {}, whole);
   CHECK(whole[0].texels == before);
 }
 
@@ -304,10 +304,10 @@ TEST_CASE("polishing with freshness turns to parts of the sample that no canvas 
   const SourceCanvas start = with_seam({14, 20}); // shows the north-west quarter only
   const std::vector<std::uint8_t> fixed(start.texels.size(), 0);
   const auto fresh = [&](double freshness) {
-    PolishOptions options;
+    PatchMatchOptions options;
     options.freshness = freshness;
     std::vector<SourceCanvas> canvases{start, start};
-    polish(image, contrast_ranks(image), 1, fixed, {0, 0, 48, 40}, options, canvases);
+    match_and_vote(image, contrast_ranks(image), 1, fixed, {0, 0, 48, 40}, options, canvases);
     return std::count_if(canvases[0].texels.begin(), canvases[0].texels.end(),
                          [](SourceTexel s) { return s.x >= 64 || s.y >= 64; });
   };
@@ -315,7 +315,7 @@ TEST_CASE("polishing with freshness turns to parts of the sample that no canvas 
 }
 
 TEST_CASE("usage is the mean over areas, those partly outside too") {
-  Usage usage(10, 6, 2);
+  UseCounts usage(10, 6, 2);
   usage.prepare();
   CHECK(usage.mean() == 0.0);
   usage.add({0, 0, 4, 4}, 3.0);
@@ -327,8 +327,8 @@ TEST_CASE("usage is the mean over areas, those partly outside too") {
   CHECK(usage.mean({0, 0, 4, 4}) == Approx((4.0 + 3.0 + 3.0 + 2.0) / 4.0));
   CHECK(usage.mean({8, 4, 50, 50}) == 0.0);
   CHECK(usage.mean() == Approx(12.0 / 15.0));
-  Usage priced(10, 6, 2);
-  priced.set_price({2, 0, 2, 2}, 7);
+  UseCounts priced(10, 6, 2);
+  priced.set_reuse_weight({2, 0, 2, 2}, 7);
   priced.add({0, 0, 4, 2}, 2.0);
   priced.add({0, 0, 4, 2}, -1.0);
   priced.prepare();
@@ -350,7 +350,7 @@ TEST_CASE("the step across a strip is that of the corner patches near its ends a
   shape.tile = {16, 16};
   shape.reach = 2;
   shape.corner_reach = 4;
-  const StripSpace space = space_of(shape, Direction::horizontal);
+  const StripAxes space = space_of(shape, Direction::horizontal);
   const SourceTexel flat{56, 32};
   const SourceTexel striped{20, 32};
   CHECK(step_across(features, space, {0, 30}) == Approx(high));

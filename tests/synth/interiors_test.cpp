@@ -1,4 +1,4 @@
-#include "samples.h"
+#include "support/samples.h"
 
 #include "tilepack/synth/frame_search.h"
 #include "tilepack/synth/interiors.h"
@@ -11,12 +11,12 @@ namespace {
 
 // A frame for 16 tiles, and what is chosen inside it.
 struct FramedTiles {
-  StudiedSample sample = studied(testing::features(testing::blobs(160, 144)), Periodicity{});
+  SampleAnalysis sample = analysed(testing::features(testing::blobs(160, 144)), Periodicity{});
   FeaturePyramid pyramid{sample.features};
   PatchSearch search{pyramid.back()};
   FrameShape shape =
       frame_shape(testing::two_colors({32, 32}, Coloring::corner, 1), Periodicity{}, 0.125, 0.1875);
-  FramePlan plan = searched_frame(pyramid, search, sample, shape, {});
+  FrameSources plan = searched_frame(pyramid, search, sample, shape, {});
   std::vector<SourceCanvas> tiles = framed_tiles(shape, joined_frame(sample.features, shape, plan));
 
   InteriorChoice chosen(int starts, std::uint64_t seed) const {

@@ -1,8 +1,8 @@
-#include "samples.h"
+#include "support/samples.h"
 
-#include "tilepack/synth/sample_nature.h"
+#include "tilepack/exemplar/sample_traits.h"
+#include "tilepack/seam/source_canvas.h"
 #include "tilepack/synth/set_report.h"
-#include "tilepack/synth/source_canvas.h"
 #include "tilepack/synth/synthesize.h"
 
 #include <tbb/global_control.h>
@@ -30,7 +30,7 @@ SourceMap windows(Size tile, const std::vector<SourceTexel>& places) {
 TEST_CASE("windows of the sample have no cuts, and show what they show", "[set_report]") {
   const FeatureImage image = features(blobs(64, 64));
   const SetReport four =
-      set_report(studied(image, {}), windows({32, 32}, {{0, 0}, {32, 0}, {0, 32}, {32, 32}}));
+      set_report(analysed(image, {}), windows({32, 32}, {{0, 0}, {32, 0}, {0, 32}, {32, 32}}));
   CHECK(four.figures.cut_length == 0);
   CHECK(four.figures.cut_mean == 0);
   CHECK(four.figures.in_pieces == 0);
@@ -43,7 +43,7 @@ TEST_CASE("windows of the sample have no cuts, and show what they show", "[set_r
 
   // Two of four alike, the others half over one another: 32 x 16 texels are shown twice.
   const SetReport some =
-      set_report(studied(image, {}), windows({32, 32}, {{0, 0}, {0, 0}, {32, 0}, {32, 16}}));
+      set_report(analysed(image, {}), windows({32, 32}, {{0, 0}, {0, 0}, {32, 0}, {32, 16}}));
   CHECK(some.figures.coverage == 0.625);
   CHECK(some.figures.fresh == 0.25);
   CHECK(some.figures.shown_often == 0.75);
@@ -64,7 +64,7 @@ TEST_CASE("a straight cut is found, measured and drawn where it is", "[set_repor
   SourceMap sources = windows({16, 16}, {{4, 0}});
   for (int y = 0; y < 16; ++y)
     for (int x = 11; x < 16; ++x) sources.texels[0][static_cast<std::size_t>(y * 16 + x)] = {40 + x, y};
-  const SetReport report = set_report(studied(image, {}), sources);
+  const SetReport report = set_report(analysed(image, {}), sources);
   CHECK(report.figures.cut_length == 16);
   CHECK(report.figures.cut_mean == 20);
   CHECK(report.figures.cut_p95 == 20);
@@ -88,7 +88,7 @@ TEST_CASE("the figures add up to what synthesis counts", "[set_report]") {
   const FeatureImage image = feature_image(maps);
   for (const Coloring coloring : {Coloring::edge, Coloring::corner}) {
     const SourceMap sources = synthesize(maps, testing::two_colors({32, 32}, coloring, 0));
-    const SetReport report = set_report(studied(image, {}), sources);
+    const SetReport report = set_report(analysed(image, {}), sources);
     double energy = 0;
     for (int tile = 0; tile < 16; ++tile) {
       double of_cuts = 0;
@@ -110,7 +110,7 @@ TEST_CASE("the figures add up to what synthesis counts", "[set_report]") {
     CHECK(shown <= 16 * 32 * 32);
     CHECK(shown > 16 * 32 * 32 / 2);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    CHECK(set_report(studied(image, {}), sources).figures == report.figures);
+    CHECK(set_report(analysed(image, {}), sources).figures == report.figures);
   }
 }
 
@@ -119,22 +119,22 @@ TEST_CASE("a spot unlike the rest is named when tiles show it", "[set_report]") 
   for (int y = 64; y < 80; ++y)
     for (int x = 32; x < 48; ++x) std::fill_n(sample.texel(x, y).begin(), 3, x % 2 == 0 ? 1.0f : 0.0f);
   const FeatureImage image = features(sample);
-  const SetReport seen = set_report(studied(image, {}), windows({64, 64}, {{0, 32}, {16, 48}, {64, 64}}));
+  const SetReport seen = set_report(analysed(image, {}), windows({64, 64}, {{0, 32}, {16, 48}, {64, 64}}));
   CHECK(seen.landmark.centre == SourceTexel{40, 72});
   CHECK(seen.landmark.deviation > 5);
   CHECK(seen.landmark.shown == Approx(2.0 / 3.0));
-  const SetReport unseen = set_report(studied(image, {}), windows({64, 64}, {{64, 64}, {64, 64}, {64, 64}}));
+  const SetReport unseen = set_report(analysed(image, {}), windows({64, 64}, {{64, 64}, {64, 64}, {64, 64}}));
   CHECK_FALSE(unseen.landmark.centre == SourceTexel{40, 72});
   CHECK(unseen.landmark.deviation < 5);
 }
 
-TEST_CASE("drift and two tones are told from texture", "[sample_nature]") {
+TEST_CASE("drift and two tones are told from texture", "[sample_traits]") {
   const auto nature = [](const Image& image, Size tile) {
     const SampleMap maps[] = {color_map(image)};
-    return sample_nature(feature_image(maps), {}, tile);
+    return sample_traits(feature_image(maps), {}, tile);
   };
   Image plain = blobs(128, 128);
-  const SampleNature usual = nature(plain, {32, 32});
+  const SampleTraits usual = nature(plain, {32, 32});
   CHECK(usual.drift < 0.1);
   CHECK(usual.two_tone < 0.8);
   Image shaded = plain;

@@ -1,4 +1,4 @@
-#include "samples.h"
+#include "support/samples.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/synth/synthesize.h"
@@ -21,7 +21,7 @@ SynthOptions quilting(Size tile, int horizontal, int vertical) {
   SynthOptions options;
   options.tile_size = tile;
   options.colors = {horizontal, vertical, 0};
-  options.interior = Interior::quilt;
+  options.interior = Construction::quilt;
   options.effort = 1;
   return options;
 }
@@ -139,7 +139,7 @@ TEST_CASE("options out of range are usage errors") {
   usage([](SynthOptions& o) { o.effort = -1; });
   usage([](SynthOptions& o) { o.coloring = Coloring::corner, o.colors.corner = 2; });
   usage([](SynthOptions& o) {
-    o.coloring = Coloring::corner, o.colors.corner = 5, o.interior = Interior::patch;
+    o.coloring = Coloring::corner, o.colors.corner = 5, o.interior = Construction::framed;
   });
 }
 

@@ -1,4 +1,4 @@
-#include "sampler/framed_set.h"
+#include "support/framed_pack.h"
 
 #include "tilepack/tileset/border_agreement.h"
 

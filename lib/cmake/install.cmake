@@ -1,0 +1,30 @@
+# `cmake --install BUILD --prefix PREFIX`: the program, the library with its headers, and what find_package needs.
+# Nothing in it names a folder of this machine, so PREFIX may be moved.
+include(CMakePackageConfigHelpers)
+
+set(tilepack_package ${CMAKE_INSTALL_LIBDIR}/cmake/tilepack)
+set(tilepack_share ${CMAKE_INSTALL_DATADIR}/tilepack)
+
+file(RELATIVE_PATH modules_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR}/tilepack)
+set_target_properties(tilepack_cli PROPERTIES INSTALL_RPATH $ORIGIN/${modules_from_bin})
+install(TARGETS tilepack_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS tilepack_openimageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/tilepack)
+install(TARGETS tilepack EXPORT tilepackTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/lib/tilepack/
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tilepack
+  FILES_MATCHING
+  PATTERN *.h)
+install(FILES ${PROJECT_SOURCE_DIR}/lib/tilepack/pack/pack.schema.json ${PROJECT_SOURCE_DIR}/lib/tilepack/check/report.schema.json
+        DESTINATION ${tilepack_share})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets DESTINATION ${tilepack_share})
+
+install(EXPORT tilepackTargets NAMESPACE tilepack:: DESTINATION ${tilepack_package})
+configure_package_config_file(
+  ${CMAKE_CURRENT_LIST_DIR}/tilepackConfig.cmake.in ${PROJECT_BINARY_DIR}/tilepackConfig.cmake
+  INSTALL_DESTINATION ${tilepack_package}
+  PATH_VARS tilepack_share)
+# Before 1.0 a minor version may break what was.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/tilepackConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/tilepackConfig.cmake ${PROJECT_BINARY_DIR}/tilepackConfigVersion.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/tilepackLibraries.cmake DESTINATION ${tilepack_package})

@@ -1,0 +1,179 @@
+#include "tilepack/bake/bake.h"
+
+#include "tilepack/bake/bake_fields.h"
+#include "tilepack/error/error.h"
+#include "tilepack/exemplar/flatten.h"
+#include "tilepack/exemplar/period.h"
+#include "tilepack/pack/file_name.h"
+#include "tilepack/tileset/sequential_set.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tilepack {
+namespace {
+
+// Sides that synthesize() takes.
+constexpr int least_tile_side = 4;
+constexpr int most_tile_side = 4096;
+
+TileColors wanted_tiles(const BakeOptions& o) {
+  const ColorCounts& k = o.synth.colors;
+  if (o.synth.coloring == Coloring::corner) return complete_corner_set(k.corner);
+  if (o.set == SetKind::sequential) return sequential_edge_set(k.horizontal, k.vertical);
+  return complete_edge_set(k.horizontal, k.vertical);
+}
+
+void check_choice(const BakeOptions& o) {
+  const ColorCounts& k = o.synth.colors;
+  const bool edge = o.synth.coloring == Coloring::edge;
+  const int most = edge ? 8 : 4;
+  for (const int count : edge ? std::vector{k.horizontal, k.vertical} : std::vector{k.corner})
+    if (count < 1 || count > most)
+      throw Error(ErrorKind::usage, "--colors",
+                  fmt::format("{} is not allowed; it must be 1 to {}", count, most));
+  if (o.set == SetKind::sequential && o.synth.coloring == Coloring::corner)
+    throw Error(ErrorKind::usage, "--set",
+                "'sequential' is for edge coloring; corner-colored sets are complete");
+  if (o.set == SetKind::sequential && o.layout == LayoutKind::tile_index)
+    throw Error(ErrorKind::usage, "--layout", "'tile-index' needs the complete set; use rotated or array");
+}
+
+std::string label_of(const SampleMap& map) {
+  return map.file.empty() ? map.name : map.file;
+}
+
+// Averages, differences and their squares must stay finite, and so must what is stored.
+constexpr float largest_value = 1e30f;
+constexpr float largest_half = 65504.0f;
+
+void check_values(const SampleMap& map, Depth stored) {
+  const float largest = stored == Depth::f16 ? largest_half : largest_value;
+  const Texels& values = map.image.data();
+  const auto bad =
+      std::find_if(values.begin(), values.end(), [&](float v) { return !(std::abs(v) <= largest); });
+  if (bad == values.end()) return;
+  const auto texel = (bad - values.begin()) / map.image.channels();
+  throw Error(ErrorKind::invalid_content, label_of(map),
+              fmt::format("holds {} at texel ({}, {}); {} values may be {} to {}: scale the image{}", *bad,
+                          texel % map.image.width(), texel / map.image.width(), name_of(stored), -largest,
+                          largest, stored == Depth::f16 ? ", or store it with --depth f32" : ""));
+}
+
+void check_fit(const SampleMap& sample, Size tile) {
+  const Size size = sample.image.size();
+  if (size.width >= tile.width && size.height >= tile.height) return;
+  if (std::max(tile.width, tile.height) > most_tile_side) return; // a fault of the option, and told so later
+  const int side = std::min({size.width, size.height, most_tile_side});
+  const std::string way_out =
+      side >= least_tile_side
+          ? fmt::format("take tiles of {0} at most (--tile-size {0}) or a larger sample", side)
+          : fmt::format("no tile fits, since tiles have at least {} texels a side: take a larger sample",
+                        least_tile_side);
+  throw Error(ErrorKind::invalid_content, label_of(sample),
+              fmt::format("has {} x {} texels, too few for a tile of {} x {}; {}", size.width, size.height,
+                          tile.width, tile.height, way_out));
+}
+
+void check_samples(std::span<const SampleMap> samples, const BakeOptions& options) {
+  if (samples.empty()) throw Error(ErrorKind::usage, "", "there is no sample; name an image");
+  std::set<std::string> names;
+  for (const SampleMap& map : samples) {
+    if (!is_map_name(map.name))
+      throw Error(ErrorKind::usage, map.name,
+                  "is no name of a map; use 1 to 64 letters, digits, '-' and '_'");
+    if (!names.insert(map.name).second)
+      throw Error(ErrorKind::usage, map.name,
+                  "is the name of two maps; give each its own, as in --map NAME:ROLE=FILE");
+    if (map.image.size() != samples[0].image.size())
+      throw Error(ErrorKind::invalid_content, label_of(map),
+                  fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
+                              map.image.width(), map.image.height(), label_of(samples[0]),
+                              samples[0].image.width(), samples[0].image.height()));
+    if (map.role == Role::normal && map.image.channels() == 1)
+      throw Error(ErrorKind::invalid_content, label_of(map),
+                  "has 1 channel, and a normal map has 3: x, y and z; give another role, such as height");
+    check_values(map, options.depth.value_or(map.depth));
+  }
+}
+
+void check_flatten(int percent) {
+  if (percent < 0 || percent > 100)
+    throw Error(ErrorKind::usage, "--flatten",
+                fmt::format("{} is not allowed; it must be 0 to 100 percent", percent));
+}
+
+// Values can leave the range that is stored: four times as bright is too much for some half.
+std::vector<SampleMap> flattened_maps(std::span<const SampleMap> samples, const BakeOptions& options,
+                                      Size tile) {
+  // Rounded once, to what is stored. Of f16 later, for what is too large for it is refused and not clamped.
+  std::optional<Depth> depth = options.depth;
+  if (depth == Depth::f16) depth = Depth::f32;
+  std::vector<SampleMap> maps;
+  for (const SampleMap& map : samples) {
+    maps.push_back(flattened(map, options.flatten / 100.0, tile, depth));
+    check_values(maps.back(), options.depth.value_or(map.depth));
+  }
+  return maps;
+}
+
+// The sources of the tiles of `wanted`, in its order: ids change.
+SourceMap subset(SourceMap complete, const TileColors& wanted) {
+  if (complete.tiles == wanted) return complete;
+  SourceMap chosen{complete.tile_size, complete.colors, wanted, {}, complete.guard};
+  for (const EdgeTile& tile : std::get<std::vector<EdgeTile>>(wanted)) {
+    const int id = id_in_complete_set(tile, complete.colors.horizontal, complete.colors.vertical);
+    chosen.texels.push_back(std::move(complete.texels[static_cast<std::size_t>(id)])); // no tile twice
+  }
+  return chosen;
+}
+
+} // namespace
+
+Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress) {
+  return baked(samples, options, progress).pack;
+}
+
+BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress) {
+  check_samples(samples, options);
+  SynthOptions synth = options.synth;
+  std::optional<Periodicity> periods;
+  if (options.fit_tile_size) {
+    periods = detect_periods(samples);
+    const Size fitting = fitting_tile_size(*periods, synth.tile_size, samples[0].image.size()).size;
+    synth.tile_size = {std::max(least_tile_side, fitting.width), std::max(least_tile_side, fitting.height)};
+  }
+  check_choice(options);
+  const TileColors wanted = wanted_tiles(options);
+  check_packing(options, wanted, synth.tile_size); // before the long stage
+  check_fit(samples[0], synth.tile_size);
+  check_flatten(options.flatten);
+  BakedPack result;
+  result.synth = synth;
+  result.flatten = options.flatten;
+  if (options.flatten > 0) {
+    report(progress, "flattening", 0.0);
+    result.flattened = flattened_maps(samples, options, synth.tile_size);
+    samples = result.flattened;
+    periods.reset();
+  }
+  result.sample = analysed(samples, periods);
+  result.sources = subset(synthesize(result.sample, synth, progress), wanted);
+  report(progress, "figures", 0.0);
+  tbb::parallel_invoke([&] { result.report = set_report(result.sample, result.sources); },
+                       [&] {
+                         result.pack = packed(assembled(result.sources, samples), options, options.synth.seed,
+                                              progress);
+                       });
+  result.pack.generator.version = TILEPACK_VERSION;
+  result.pack.generator.options = recorded_options(options);
+  result.pack.generator.seed = options.synth.seed;
+  result.pack.synthesis = result.report.figures;
+  return result;
+}
+
+} // namespace tilepack

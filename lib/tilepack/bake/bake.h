@@ -1,0 +1,43 @@
+#pragma once
+
+#include "tilepack/bake/bake_options.h"
+#include "tilepack/error/progress.h"
+#include "tilepack/synth/set_report.h"
+#include "tilepack/synth/synthesize.h"
+
+#include <span>
+#include <vector>
+
+namespace tilepack {
+
+/// Sample maps → flattening → synthesis → layout → mips → mapping → pack, in memory. `samples[0]` is the main
+/// map.
+///
+/// Throws Error: usage for options that are out of range, contradict each
+/// other or would make a texture over most_texels_a_level; invalid_content for samples of unequal sizes or
+/// too small; and what the stages throw. Deterministic as they are.
+Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress = {});
+
+/// A pack and how it came about, for reports.
+struct BakedPack {
+  Pack pack;
+  SampleAnalysis sample; ///< as used: after flattening
+  SourceMap sources;     ///< where the pack's tiles come from, by the pack's ids
+  SetReport report;      ///< of these sources
+  SynthOptions synth;    ///< as used: tile_size is the fitted one
+  int flatten = 0;       ///< as in the options
+
+  /// The sample maps after flattening, which all above is about; none if flatten is 0.
+  std::vector<SampleMap> flattened;
+
+  /// The sample maps that the tiles are copied from. `given`: those that baked() got.
+  std::span<const SampleMap> samples_used(std::span<const SampleMap> given) const {
+    return flattened.empty() ? given : std::span<const SampleMap>(flattened);
+  }
+};
+
+/// As bake, which returns the pack alone.
+BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options,
+                const Progress& progress = {});
+
+} // namespace tilepack

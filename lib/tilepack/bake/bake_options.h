@@ -1,0 +1,32 @@
+#pragma once
+
+#include "tilepack/bake/packing.h"
+#include "tilepack/synth/synth_options.h"
+
+namespace tilepack {
+
+/// Which tiles of the colors asked for are made.
+enum class SetKind {
+  complete,   ///< every combination: (Kh · Kv)² edge-colored tiles, or K⁴ corner-colored ones
+  sequential, ///< 2 · Kh · Kv edge-colored tiles for an index map filled row by row
+              ///< (tileset/sequential_set.h)
+};
+
+/// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
+/// keys of a preset: see bake/bake_fields.h, which holds their names, ranges and help.
+/// The defaults are those of `tilepack bake`: 2 corner colors in a de Bruijn layout. Edge colors take three
+/// fields together, synth.coloring, synth.colors and layout (tile_index for a complete set).
+struct BakeOptions : PackingOptions {
+  BakeOptions() {
+    layout = LayoutKind::de_bruijn;
+    synth.coloring = Coloring::corner;
+    synth.colors = {0, 0, 2};
+  }
+
+  SynthOptions synth;
+  bool fit_tile_size = false; ///< tile sides become whole periods of the sample, near synth.tile_size
+  SetKind set = SetKind::complete;
+  int flatten = 0; ///< percent of slow shading taken out of the sample, 0..100 (exemplar/flatten.h)
+};
+
+} // namespace tilepack

@@ -1,0 +1,212 @@
+#include "tilepack/bake/packing.h"
+
+#include "tilepack/bake/round_trip.h"
+#include "tilepack/error/error.h"
+#include "tilepack/layout/array_layout.h"
+#include "tilepack/layout/corner_grid.h"
+#include "tilepack/layout/de_bruijn.h"
+#include "tilepack/layout/tile_index.h"
+#include "tilepack/mapping/even_pattern.h"
+#include "tilepack/mapping/index_fill.h"
+#include "tilepack/tileset/border_agreement.h"
+#include "tilepack/mip/mip_chain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tilepack {
+namespace {
+
+MappingKind mapping_kind(const PackingOptions& o, const TileColors& tiles) {
+  if (o.mapping) return *o.mapping;
+  return has_even_pattern(color_counts(tiles).corner) ? MappingKind::even : MappingKind::mix;
+}
+
+constexpr int longest_texture_side = 65536;
+
+bool is_integer(Depth depth) {
+  return depth == Depth::u8 || depth == Depth::u16;
+}
+
+void check_layout_fits(const PackingOptions& o, const TileColors& tiles) {
+  const bool corner = coloring_of(tiles) == Coloring::corner;
+  if (o.layout == (corner ? LayoutKind::tile_index : LayoutKind::de_bruijn))
+    throw Error(ErrorKind::usage, "--layout",
+                fmt::format("'{}' is for {} coloring; use {}, rotated or array with {} coloring",
+                            name_of(o.layout), corner ? "edge" : "corner",
+                            corner ? "de-bruijn" : "tile-index", corner ? "corner" : "edge"));
+  // These name the combination that is missing or there twice.
+  if (o.layout == LayoutKind::tile_index) tile_index_layout(std::get<std::vector<EdgeTile>>(tiles));
+  if (o.layout == LayoutKind::de_bruijn) de_bruijn_layout(std::get<std::vector<CornerTile>>(tiles));
+  if (is_complete_set(tiles)) return;
+  if (const MappingKind kind = mapping_kind(o, tiles); kind != MappingKind::index)
+    throw Error(
+        ErrorKind::usage, "--mapping",
+        fmt::format("'{}' needs the complete set, in the order of its colors; use index for these {} tiles",
+                    name_of(kind), tile_count(tiles)));
+}
+
+void check_layout_options(const PackingOptions& o, Size tile_size) {
+  if (o.layout != LayoutKind::rotated && (o.scheme || o.gutter || o.power_of_two))
+    throw Error(ErrorKind::usage,
+                o.scheme   ? "--scheme"
+                : o.gutter ? "--gutter"
+                           : "--power-of-two",
+                "is for --layout rotated");
+  if (o.layout == LayoutKind::rotated && tile_size.width != tile_size.height)
+    throw Error(
+        ErrorKind::usage, "--tile-size",
+        fmt::format("{}x{} texels; tiles must be square to be turned", tile_size.width, tile_size.height));
+  if (o.layout != LayoutKind::array && o.border != 0)
+    throw Error(ErrorKind::usage, "--border", "is for --layout array");
+}
+
+Layout layout_for(const PackingOptions& o, const TileColors& tiles, Size tile_size) {
+  switch (o.layout) {
+  case LayoutKind::tile_index:
+    return tile_index_layout(std::get<std::vector<EdgeTile>>(tiles));
+  case LayoutKind::de_bruijn:
+    return de_bruijn_layout(std::get<std::vector<CornerTile>>(tiles));
+  case LayoutKind::array:
+    return array_layout(tile_count(tiles), tile_size, o.border);
+  case LayoutKind::rotated:
+    break;
+  }
+  LayoutRequest request;
+  request.tiles = tile_count(tiles);
+  request.tile_side = tile_size.width;
+  request.scheme = o.scheme;
+  request.gutter = o.gutter;
+  request.power_of_two = o.power_of_two;
+  return planned_layout(layout_plans(request, &tiles).front(), tile_size.width);
+}
+
+Mapping mapping_for(const PackingOptions& o, const TileSet& set, std::uint64_t seed) {
+  switch (mapping_kind(o, set.tiles)) {
+  case MappingKind::permutation:
+    return permutation_mapping(o.virtual_size, set.colors, seed);
+  case MappingKind::mix:
+    return mix_mapping(o.virtual_size, seed);
+  case MappingKind::even:
+    return even_mapping(o.virtual_size, set.colors.corner, seed);
+  case MappingKind::index:
+    break;
+  }
+  if (!is_complete_set(set.tiles)) return filled_index_mapping(o.virtual_size, set.tiles, seed);
+  return index_mapping(has_even_pattern(set.colors.corner)
+                           ? even_mapping(o.virtual_size, set.colors.corner, seed)
+                           : mix_mapping(o.virtual_size, seed),
+                       set.colors);
+}
+
+// Its range alone, without the work of filling an index map.
+void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
+  const MappingKind kind = mapping_kind(o, tiles);
+  if (kind == MappingKind::permutation) permutation_mapping(o.virtual_size, color_counts(tiles), 0);
+  if (kind == MappingKind::mix) mix_mapping(o.virtual_size, 0);
+  if (kind == MappingKind::even) even_mapping(o.virtual_size, color_counts(tiles).corner, 0);
+  constexpr std::int64_t longest_side = 65536;
+  constexpr std::int64_t most_cells = std::int64_t{1} << 26;
+  const VirtualSize& size = o.virtual_size;
+  if (kind == MappingKind::index && (size.width < 1 || size.height < 1 || size.width > longest_side ||
+                                     size.height > longest_side || size.width * size.height > most_cells))
+    throw Error(ErrorKind::usage, "--virtual-size",
+                fmt::format("{}x{} tiles; an index map has sides of 1 to {} and at most {} cells", size.width,
+                            size.height, longest_side, most_cells));
+}
+
+Depth stored_depth(Depth sample, const PackingOptions& options) {
+  if (options.depth) return *options.depth;
+  if (options.format == PackFormat::png && !is_integer(sample)) return Depth::u16;
+  if (options.format == PackFormat::exr && is_integer(sample)) return Depth::f16;
+  return sample;
+}
+
+// Tiles as the pack will store level 0, so that coarser levels are made from what is really there.
+void convert(TileMap& map, Depth depth) {
+  const bool becomes_float = is_integer(map.depth) && !is_integer(depth);
+  const bool becomes_integer = !is_integer(map.depth) && is_integer(depth);
+  Encoding encoding = map.encoding;
+  if (map.role == Role::color && becomes_float) encoding = Encoding::linear;
+  if (map.role == Role::color && becomes_integer) encoding = Encoding::srgb;
+  for (Image& tile : map.tiles) {
+    if (encoding != map.encoding) tile = from_linear(to_linear(tile, map.encoding), encoding);
+    if (depth != map.depth) tile = quantised(tile, depth);
+  }
+  map.encoding = encoding;
+  map.depth = depth;
+}
+
+PackedMap described_by(const TileMap& finest) {
+  return {finest.name, finest.role, finest.encoding, finest.depth, finest.tiles.front().channels(), {}};
+}
+
+} // namespace
+
+void check_packing(const PackingOptions& options, const TileColors& tiles, Size tile_size) {
+  if (options.format && options.depth && (*options.format == PackFormat::png) != is_integer(*options.depth))
+    throw Error(
+        ErrorKind::usage, "--depth",
+        fmt::format("'{}' can't be stored in the format asked for; png holds u8 and u16, exr f16 and f32",
+                    name_of(*options.depth)));
+  check_layout_options(options, tile_size);
+  check_layout_fits(options, tiles);
+  if (options.corner_pack && (coloring_of(tiles) == Coloring::corner || !is_complete_set(tiles)))
+    throw Error(ErrorKind::usage, "--corner-pack",
+                "is for complete edge-colored sets; corner-colored tiles need none");
+  check_virtual_size(options, tiles);
+  const Size texture = texture_size(layout_for(options, tiles, tile_size), tile_size, 0);
+  const std::int64_t texels = std::int64_t{texture.width} * texture.height;
+  if (texels > most_texels_a_level || std::max(texture.width, texture.height) > longest_texture_side)
+    throw Error(
+        ErrorKind::usage, "--tile-size",
+        fmt::format(
+            "{} tiles of {} x {} texels make a texture of {} x {}; a pack has at most {} texels, and {} a "
+            "side: take smaller tiles or fewer colors",
+            tile_count(tiles), tile_size.width, tile_size.height, texture.width, texture.height,
+            most_texels_a_level, longest_texture_side));
+}
+
+Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, const Progress& progress) {
+  check_packing(options, set.tiles, set.tile_size);
+  for (TileMap& map : set.maps) convert(map, stored_depth(map.depth, options));
+
+  Pack pack;
+  pack.tile_size = set.tile_size;
+  pack.colors = set.colors;
+  pack.tiles = set.tiles;
+  pack.layout = layout_for(options, set.tiles, set.tile_size);
+  pack.mapping = mapping_for(options, set, seed);
+  pack.mip_mode = options.mips.mode;
+  pack.guard = set.guard;
+  const int maps = static_cast<int>(set.maps.size());
+  if (options.corner_pack) {
+    const CornerGrid grid = corner_grid(set.colors.horizontal, set.colors.vertical);
+    pack.corner_pack = CornerPack{grid.columns, grid.rows, agreed_corner_width(set), {}};
+  }
+  for (int m = 0; m < maps; ++m) {
+    report(progress, "mips", static_cast<double>(m) / maps);
+    const TileMap& finest = set.maps[static_cast<std::size_t>(m)];
+    const std::vector<TileMap> coarser = coarser_levels(set, m, options.mips, &pack.layout);
+    PackedMap map = described_by(finest);
+    PackedMap corners = map;
+    pack.tile_levels = levels_held(pack.layout, set.tile_size, static_cast<int>(coarser.size()) + 1);
+    for (int level = 0; level < pack.tile_levels; ++level) {
+      const TileMap& tiles = level == 0 ? finest : coarser[static_cast<std::size_t>(level - 1)];
+      map.levels.push_back(quantised(
+          place_tiles(tiles, set.tiles, pack.layout, set.tile_size, level, {options.turn_filter, {}}),
+          map.depth));
+      if (level == 0 && pack.layout.kind == LayoutKind::rotated)
+        map.round_trips = round_trips(tiles, set.tiles, pack.layout, set.tile_size);
+      if (pack.corner_pack)
+        corners.levels.push_back(quantised(
+            corner_atlas(tiles.tiles, corner_grid(set.colors.horizontal, set.colors.vertical)), map.depth));
+    }
+    pack.maps.push_back(std::move(map));
+    if (pack.corner_pack) pack.corner_pack->maps.push_back(std::move(corners));
+  }
+  return pack;
+}
+
+} // namespace tilepack

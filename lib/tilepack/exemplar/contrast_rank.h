@@ -1,0 +1,35 @@
+#pragma once
+
+#include "tilepack/exemplar/feature_image.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tilepack {
+
+/// How lively each part of a sample is among all its parts.
+///
+/// The most like patch of a sample is often a calm one: it is near to everything, as a mean is. A choice by
+/// likeness alone therefore shows calm parts more often than the sample does, and what it mends looks washed
+/// out. With ranks it can pay for that, whatever the sample's contrast and however that is distributed.
+struct ContrastRanks {
+  static constexpr int count = 64;
+
+  int square = 1; ///< each rank holds for so many texels a side
+  int wide = 0;   ///< squares in a row; what is left of a row or column at its end is a square too
+  int high = 0;
+  std::vector<std::uint8_t> ranks; ///< 0 for the calmest square .. count - 1 for the liveliest
+
+  /// Of the square round a texel.
+  int at(int x, int y) const {
+    return ranks[static_cast<std::size_t>(y / square) * static_cast<std::size_t>(wide) +
+                 static_cast<std::size_t>(x / square)];
+  }
+};
+
+/// By the variance, summed over the channels, of the 7 × 7 texels round the middle of each square (fewer at
+/// the image's border). Squares of one variance have one rank. They are as small as can be, a power of two
+/// texels wide, with about 16 000 of them at most.
+ContrastRanks contrast_ranks(const FeatureImage& image);
+
+} // namespace tilepack

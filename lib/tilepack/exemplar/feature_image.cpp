@@ -1,0 +1,136 @@
+#include "tilepack/exemplar/feature_image.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+namespace tilepack {
+namespace {
+
+// How one channel of a map becomes a feature: value → offset, slope, or the curve v / (v + mean).
+struct Curve {
+  bool compressed = false;
+  double mean = 0.0;
+  double low = 0.0;
+  double scale = 255.0;
+};
+
+struct Source {
+  const Image* image = nullptr;
+  int channel = 0;
+  int alpha = -1; // channel that multiplies, if any
+  Curve curve;
+};
+
+double weight_of(Role role) {
+  switch (role) {
+  case Role::color:
+    return 1.0;
+  case Role::normal:
+    return 0.5;
+  case Role::roughness:
+    return 0.375;
+  case Role::height:
+    return 0.625;
+  case Role::data:
+    break;
+  }
+  return 0.25;
+}
+
+std::uint8_t feature(const Source& source, std::span<const float> texel) {
+  double v = static_cast<double>(texel[static_cast<std::size_t>(source.channel)]);
+  if (source.curve.compressed)
+    v = v > 0.0 ? v / (v + source.curve.mean) : 0.0;
+  else
+    v -= source.curve.low;
+  v *= source.curve.scale;
+  if (source.alpha >= 0)
+    v *= std::clamp(static_cast<double>(texel[static_cast<std::size_t>(source.alpha)]), 0.0, 1.0);
+  return static_cast<std::uint8_t>(std::clamp(v + 0.5, 0.0, 255.0));
+}
+
+double mean_of_positive(const Image& image, int channels) {
+  double sum = 0.0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const auto texel = image.texel(x, y);
+      for (int c = 0; c < channels; ++c) sum += std::max(0.0f, texel[static_cast<std::size_t>(c)]);
+    }
+  return sum / (static_cast<double>(image.width()) * image.height() * channels);
+}
+
+void add_sources(const SampleMap& map, std::vector<Source>& sources) {
+  const Image& image = map.image;
+  const double weight = weight_of(map.role);
+  const bool has_alpha = map.role == Role::color && image.channels() % 2 == 0;
+  const int plain_channels = image.channels() - (has_alpha ? 1 : 0);
+  Curve curve;
+  curve.scale = 255.0 * weight;
+  if (map.role == Role::color && map.encoding == Encoding::linear) {
+    curve.compressed = true;
+    curve.mean = std::max(mean_of_positive(image, plain_channels), 1e-30);
+  } else if (map.role == Role::height) {
+    const auto [low, high] = std::minmax_element(image.data().begin(), image.data().end());
+    curve.low = static_cast<double>(*low);
+    curve.scale = *high > *low ? 255.0 * weight / (static_cast<double>(*high) - curve.low) : 0.0;
+  }
+  for (int c = 0; c < plain_channels; ++c)
+    sources.push_back({&image, c, has_alpha ? plain_channels : -1, curve});
+  if (has_alpha) {
+    Curve plain;
+    plain.scale = 255.0 * weight_of(Role::data);
+    sources.push_back({&image, plain_channels, -1, plain});
+  }
+}
+
+bool varies(const Source& source) {
+  const Image& image = *source.image;
+  const std::uint8_t first = feature(source, image.texel(0, 0));
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      if (feature(source, image.texel(x, y)) != first) return true;
+  return false;
+}
+
+} // namespace
+
+FeatureImage feature_image(std::span<const SampleMap> samples) {
+  std::vector<Source> sources;
+  for (const SampleMap& map : samples) add_sources(map, sources);
+  const Source fallback = sources.front();
+  std::erase_if(sources, [](const Source& source) { return !varies(source); });
+  if (sources.empty()) sources.push_back(fallback);
+  if (sources.size() > max_feature_channels) sources.resize(max_feature_channels);
+
+  const Image& any = samples.front().image;
+  FeatureImage result{any.width(), any.height(), static_cast<int>(sources.size()), {}};
+  const std::size_t row = static_cast<std::size_t>(any.width()) * sources.size();
+  result.values.resize(row * static_cast<std::size_t>(any.height()));
+  tbb::parallel_for(0, any.height(), [&](int y) {
+    std::uint8_t* value = result.values.data() + static_cast<std::size_t>(y) * row;
+    for (int x = 0; x < any.width(); ++x)
+      for (const Source& source : sources) *value++ = feature(source, source.image->texel(x, y));
+  });
+  return result;
+}
+
+FeatureImage halved(const FeatureImage& image) {
+  FeatureImage result{image.width / 2, image.height / 2, image.channels, {}};
+  const std::size_t row = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.channels);
+  result.values.resize(row * static_cast<std::size_t>(result.height));
+  tbb::parallel_for(0, result.height, [&](int y) {
+    std::uint8_t* value = result.values.data() + static_cast<std::size_t>(y) * row;
+    for (int x = 0; x < result.width; ++x) {
+      const std::uint8_t* a = image.texel(2 * x, 2 * y);
+      const std::uint8_t* b = image.texel(2 * x, 2 * y + 1);
+      for (int c = 0; c < image.channels; ++c) {
+        const int sum = a[c] + a[c + image.channels] + b[c] + b[c + image.channels];
+        *value++ = static_cast<std::uint8_t>((sum + 2) / 4);
+      }
+    }
+  });
+  return result;
+}
+
+} // namespace tilepack

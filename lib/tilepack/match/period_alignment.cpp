@@ -1,0 +1,62 @@
+#include "tilepack/match/period_alignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tilepack {
+namespace {
+
+double kept(const Period& period, int side) {
+  return whole_periods(period, side) > 0 ? period.length : 0.0;
+}
+
+} // namespace
+
+PeriodAlignment::PeriodAlignment(const Periodicity& periodicity, Size tile)
+    : x{kept(periodicity.x, tile.width), 0.0}, y{kept(periodicity.y, tile.height), 0.0} {}
+
+PeriodAlignment PeriodAlignment::through(SourceTexel texel) const {
+  PeriodAlignment moved = *this;
+  moved.x.origin = texel.x;
+  moved.y.origin = texel.y;
+  return moved;
+}
+
+PeriodAlignment PeriodAlignment::seen_from(SourceTexel place) const {
+  PeriodAlignment moved = *this;
+  moved.x.origin += place.x;
+  moved.y.origin += place.y;
+  return moved;
+}
+
+bool PeriodAlignment::allows(SourceTexel texel, int step) const {
+  return x.allows(texel.x, step) && y.allows(texel.y, step);
+}
+
+SourceTexel PeriodAlignment::nearest(SourceTexel texel, SourceTexel low, SourceTexel high) const {
+  return {x.nearest(texel.x, low.x, high.x), y.nearest(texel.y, low.y, high.y)};
+}
+
+bool PeriodAlignment::Axis::allows(int texel, int step) const {
+  if (period <= 0.0) return true;
+  const double off = std::abs(std::remainder(texel - origin, period));
+  return off <= std::max({1.0, 0.5 * step, period / 64.0});
+}
+
+int PeriodAlignment::Axis::nearest(int texel, int low, int high) const {
+  if (period <= 0.0) return texel;
+  double place = texel - std::remainder(texel - origin, period);
+  if (place < low) place += period;
+  if (place > high) place -= period;
+  return static_cast<int>(std::lround(place));
+}
+
+void rule_out_of_step(PositionMap& map, const PeriodAlignment& phase, int scale) {
+  if (phase.free()) return;
+  std::size_t i = 0;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x, ++i)
+      if (!phase.allows({x * scale, y * scale}, scale)) map.values[i] = ruled_out;
+}
+
+} // namespace tilepack

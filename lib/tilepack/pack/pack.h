@@ -1,0 +1,78 @@
+#pragma once
+
+#include "tilepack/image/resample.h"
+#include "tilepack/layout/layout.h"
+#include "tilepack/mapping/mapping.h"
+#include "tilepack/mip/mip_mode.h"
+#include "tilepack/tileset/set_figures.h"
+#include "tilepack/tileset/tile_set.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tilepack {
+
+/// The most texels one level of a map may have: 16384 x 16384, beyond what graphics hardware takes. Limits
+/// what reading a pack can make a program allocate.
+constexpr std::int64_t most_texels_a_level = std::int64_t{1} << 28;
+
+/// The largest seed: whole in every JSON reader, also those that keep numbers as doubles.
+constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;
+
+/// What storing tiles turned costs: level 0 of a map stored with `filter` and read back as tiles_at_level
+/// does, held against the tiles as they were.
+struct RoundTrip {
+  ResampleFilter filter = ResampleFilter::lanczos;
+  std::optional<double> psnr =
+      {}; ///< decibels in hundredths, of stored values against full scale; unset: no loss
+  bool operator==(const RoundTrip&) const = default;
+};
+
+/// One map of a pack: its levels as placed images, finest first, values as stored (rounded to `depth`).
+struct PackedMap {
+  std::string name;
+  Role role = Role::color;
+  Encoding encoding = Encoding::srgb;
+  Depth depth = Depth::u8;
+  int channels = 0;
+  std::vector<Image> levels;
+  std::vector<RoundTrip> round_trips = {}; ///< rotated layouts: one a filter, in the order of ResampleFilter
+};
+
+/// Who made the pack and how, so that it can be made again. No clock and no path.
+struct Generator {
+  std::string name = "tilepack";
+  std::string version;
+  std::vector<std::pair<std::string, std::string>>
+      options; ///< name → value as it would stand on the command line
+  std::uint64_t seed = 0;
+};
+
+/// The corner pack of [Wei04, App. B]: one cell a combination of the four edges round a lattice point.
+struct CornerPack {
+  int columns = 0;  ///< Kh²
+  int rows = 0;     ///< Kv²
+  double width = 0; ///< the widest it may be blended in round lattice points, texels of level 0
+  std::vector<PackedMap> maps;
+};
+
+/// The deliverable as one value: what pack.json and its images hold.
+struct Pack {
+  Generator generator;
+  Size tile_size;
+  ColorCounts colors;
+  TileColors tiles;
+  Layout layout;
+  std::vector<PackedMap> maps;
+  Mapping mapping;
+  std::optional<CornerPack> corner_pack;
+  MipMode mip_mode = MipMode::edges;
+  int guard = 0;
+  int tile_levels = 0;                 ///< number of levels, level 0 counted
+  std::optional<SetFigures> synthesis; ///< of a set made from a sample; nothing here is needed to sample it
+};
+
+} // namespace tilepack

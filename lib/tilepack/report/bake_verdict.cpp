@@ -1,0 +1,310 @@
+#include "tilepack/report/bake_verdict.h"
+
+#include "tilepack/exemplar/feature_image.h"
+#include "tilepack/exemplar/flatten.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace tilepack {
+namespace {
+
+using Remarks = std::vector<BakeRemark>;
+
+std::string shown(Size size) {
+  return size.width == size.height ? fmt::format("{}", size.width)
+                                   : fmt::format("{}x{}", size.width, size.height);
+}
+
+// Levels of a tile: both sides are halved as long as they are even.
+int mip_levels(Size tile) {
+  return 1 + std::countr_zero(static_cast<unsigned>(tile.width | tile.height));
+}
+
+double tiles_in_sample(const BakeFacts& facts) {
+  const Size tile = facts.synth.tile_size;
+  return static_cast<double>(facts.sample.width) / tile.width * static_cast<double>(facts.sample.height) /
+         tile.height;
+}
+
+double percent(double share) {
+  return share * 100;
+}
+
+void add(Remarks& remarks, Grade grade, std::string text) {
+  BakeRemark& remark = remarks.emplace_back();
+  remark.grade = grade;
+  remark.text = std::move(text);
+}
+
+// Marks that mean something alone: two tones, little ink, in lines. A scanned page has two_tone 0.83; of 22
+// photos of natural and built surfaces none has more than 0.71.
+bool is_writing(const BakeFacts& facts) {
+  const SampleTraits& n = facts.nature;
+  const bool along_one_axis = (n.periods.x.length > 0) != (n.periods.y.length > 0);
+  return n.two_tone > 0.78 && n.ink < 0.35 && along_one_axis;
+}
+
+// Visibility of cuts against the sample's own steps. Of 22 photos, tiles of 128 texels and --effort 0: median
+// 1.2 on average and 2.9 for the dearest twentieth; those whose cuts can be seen have 1.5 and 4 or more.
+constexpr double dear_mean = 1.4;
+constexpr double dear_p95 = 4.0;
+
+double mean_cut(const BakeFacts& facts) {
+  return facts.report.figures.cut_mean / std::max(facts.report.figures.sample_step, 0.5);
+}
+
+// How far the side is from whole periods, in texels.
+double misfit(const Period& period, int side) {
+  return std::abs(side - std::max(1.0, std::round(side / period.length)) * period.length);
+}
+
+void judge_periods(const BakeFacts& facts, Remarks& remarks) {
+  const Periodicity& periods = facts.nature.periods;
+  const Size tile = facts.synth.tile_size;
+  const TileSizeAdvice advice = fitting_tile_size(periods, tile, facts.sample);
+  const auto judge = [&](const Period& period, int side, int fitting, const char* axis) {
+    if (period.length <= 0) return;
+    const double off = misfit(period, side);
+    if (const int count = whole_periods(period, side); count > 0) {
+      add(remarks, Grade::good,
+          fmt::format("The sample repeats every {:.2f} texels along {}, and a tile "
+                      "holds {} of them.",
+                      period.length, axis, count));
+      return;
+    }
+    const Grade grade = off > 0.1 * period.length && mean_cut(facts) > dear_mean ? Grade::poor : Grade::fair;
+    const std::string found = fmt::format(
+        "The sample repeats every {:.2f} texels along {}, and {} texels are {:.2f} of them: what runs on in "
+        "the sample breaks off where parts of it meet.",
+        period.length, axis, side, side / period.length);
+    const char* const limit = is_writing(facts) ? " Lines then run on, what they say does not." : "";
+    if (fitting != side && misfit(period, fitting) < off)
+      add(remarks, grade,
+          fmt::format("{} Bake with --tile-size {}, which --tile-size auto finds{}.{}", found,
+                      shown(advice.size),
+                      mip_levels(advice.size) < mip_levels(tile)
+                          ? fmt::format(" (tiles of that size have {} mip level{}, these {})",
+                                        mip_levels(advice.size), mip_levels(advice.size) == 1 ? "" : "s",
+                                        mip_levels(tile))
+                          : "",
+                      limit));
+    else
+      add(remarks, grade,
+          fmt::format("{} No tile that fits holds whole repeats; a larger sample, or one "
+                      "scaled so that repeats are whole texels, would help.",
+                      found));
+  };
+  judge(periods.x, tile.width, advice.size.width, "x");
+  judge(periods.y, tile.height, advice.size.height, "y");
+}
+
+// What hides a cut is how much neighbouring texels differ anyway.
+void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
+  const SetFigures& f = facts.report.figures;
+  if (f.cut_length == 0) {
+    add(remarks, Grade::good, "No tile has a cut inside.");
+    return;
+  }
+  const double mean = mean_cut(facts);
+  const double worst = f.cut_p95 / std::max(f.sample_step, 0.5);
+  const std::string found = fmt::format(
+      "Across cuts material differs by {:.1f} on average and by up to {:.1f} along 19 of 20 texels of cut; "
+      "neighbouring texels of the sample differ by {:.1f}",
+      f.cut_mean, f.cut_p95, f.sample_step);
+  if (mean <= dear_mean && worst <= dear_p95) {
+    add(remarks, Grade::good, found + ", so cuts hide in the texture.");
+    return;
+  }
+  std::string options;
+  const auto suggest = [&](const std::string& option) { options += (options.empty() ? "" : ", ") + option; };
+  const SynthOptions& o = facts.synth;
+  if (o.interior == Construction::quilt) suggest("--interior patch");
+  if (o.effort < 9) suggest("--effort 9");
+  if (2 * o.tile_size.width <= facts.sample.width / 2 && 2 * o.tile_size.height <= facts.sample.height / 2)
+    suggest(fmt::format("--tile-size {} (fewer cuts for the area)",
+                        shown({2 * o.tile_size.width, 2 * o.tile_size.height})));
+  suggest("another --seed");
+  const int colors =
+      o.coloring == Coloring::corner ? o.colors.corner : std::max(o.colors.horizontal, o.colors.vertical);
+  if (colors > 2) suggest("--colors 2 (fewer parts that must fit one another)");
+  add(remarks, mean > 2 || worst > 6 ? Grade::poor : Grade::fair,
+      fmt::format("{}: some can be seen. Try {}.", found, options));
+}
+
+// Steps alone don't tell: a set has few kinds of borders, and where one runs along a joint of bricks its step
+// is large and right.
+void judge_borders(const BakeFacts& facts, Remarks& remarks) {
+  const SetFigures& f = facts.report.figures;
+  const double share = f.border_mean / std::max(f.sample_step, 0.5);
+  if (share <= 0.1) {
+    add(remarks, Grade::good, "Across borders tiles show neighbours of the sample: no border can be told.");
+    return;
+  }
+  const std::string way_out = facts.synth.coloring == Coloring::edge
+                                  ? "--coloring corner, whose corners agree"
+                                  : "--guard 4, or another --seed";
+  add(remarks, share > 0.4 ? Grade::poor : Grade::fair,
+      fmt::format(
+          "Across borders material differs by {:.1f} on average (neighbouring texels of the sample by "
+          "{:.1f}). Try {}.",
+          f.border_mean, f.sample_step, way_out));
+}
+
+constexpr double fewest_tiles = 6; // in a sample that gives every tile an inside of its own
+
+// Tones that differ from tile to tile. With tiles of 128 texels, shading is 0.019 to 0.063 in the photos
+// whose tiles can be told by their tone (wood, sand, clouds, boards, a rubble wall, rust) and 0.017 at most
+// in the others (grass 0.017, leaves 0.017, gravel 0.004, brick 0).
+constexpr double much_shading = 0.018;
+constexpr double much_drift = 0.25;
+
+bool has_shading(const SampleTraits& nature) {
+  return nature.shading > much_shading || nature.drift > much_drift;
+}
+
+std::string shading_text(const BakeFacts& facts) {
+  const double drift = facts.nature.drift;
+  const std::string found =
+      fmt::format("{:.1f} % of the sample's variance lies between areas of a tile's size: brightness or hue "
+                  "changes on a larger scale than tiles, which shows as a patchwork of tones.",
+                  percent(drift));
+  if (facts.flatten < 100 && facts.flat_drift < drift / 2)
+    return fmt::format("{} Bake with --flatten 100, which leaves {:.1f} %, or with a larger --tile-size.",
+                       found, percent(facts.flat_drift));
+  return found + " Use a larger --tile-size, or a sample that is more even.";
+}
+
+void judge_sample(const BakeFacts& facts, Remarks& remarks) {
+  const SampleTraits& n = facts.nature;
+  const Size tile = facts.synth.tile_size;
+  const double held = tiles_in_sample(facts);
+  if (held < fewest_tiles) {
+    const int smaller = std::min(facts.sample.width, facts.sample.height) / 4 / 8 * 8;
+    add(remarks, held < 2.5 ? Grade::poor : Grade::fair,
+        fmt::format("The sample holds {:.1f} tiles, too little for every tile to have an inside of its own. "
+                    "Use a larger sample{}.",
+                    held,
+                    smaller >= 16 && smaller < std::min(tile.width, tile.height)
+                        ? fmt::format(", or --tile-size {}", smaller)
+                        : ""));
+  }
+  if (has_shading(n)) add(remarks, n.drift > 0.5 ? Grade::poor : Grade::fair, shading_text(facts));
+  if (is_writing(facts))
+    add(remarks, Grade::poor,
+        "The sample looks like writing or drawing: two tones in lines. Tiles keep what neighbours "
+        "look like, not what marks mean, and cuts must run through marks: no option keeps what "
+        "is written whole. Store it as a texture of its own.");
+}
+
+// More tiles show more only where the sample has more to show than they hold.
+std::string way_to_variety(const BakeFacts& facts) {
+  const SynthOptions& o = facts.synth;
+  const bool corner = o.coloring == Coloring::corner;
+  const ColorCounts& k = o.colors;
+  const int more = 1 + (corner ? k.corner : std::min(k.horizontal, k.vertical));
+  if (o.interior == Construction::quilt) return " --interior patch gives every tile an inside of its own.";
+  const double held = tiles_in_sample(facts);
+  if (held < facts.tiles) return held < fewest_tiles ? "" : " A larger sample or smaller tiles show more.";
+  if (more > (corner ? 4 : 8)) return "";
+  const int complete = corner ? facts.tiles : k.horizontal * k.horizontal * k.vertical * k.vertical;
+  return fmt::format(" --colors {} shows more, in {} tiles.", more,
+                     facts.tiles == complete ? more * more * more * more : 2 * more * more);
+}
+
+void judge_variety(const BakeFacts& facts, Remarks& remarks) {
+  const SetFigures& f = facts.report.figures;
+  if (facts.tiles == 1) {
+    add(remarks, Grade::fair, "One tile lies in all cells. --colors 2 shows more, in 16 tiles.");
+    return;
+  }
+  const std::string way_out = way_to_variety(facts);
+  const std::string found = fmt::format(
+      "The tiles show {:.0f} % of the sample and are as varied as {:.1f} tiles without a texel in "
+      "common, of {}",
+      percent(f.coverage), f.distinct_tiles, facts.tiles);
+  const double possible = std::min(static_cast<double>(facts.tiles), tiles_in_sample(facts));
+  const bool few = f.coverage < 0.5 && f.distinct_tiles < 0.5 * possible;
+  if (few)
+    add(remarks, f.distinct_tiles < 0.3 * possible ? Grade::poor : Grade::fair,
+        found + ": parts come back often, and others are never seen." + way_out);
+  else
+    add(remarks, Grade::good, found + ".");
+  if (f.shown_often > 0.35) // the way out is said once
+    add(remarks, Grade::fair,
+        fmt::format("{:.0f} % of the tiles' area shows what half of all tiles show.{}",
+                    percent(f.shown_often), few ? "" : way_out));
+  if (f.histogram_distance > 0.06)
+    add(remarks, f.histogram_distance > 0.12 ? Grade::poor : Grade::fair,
+        fmt::format(
+            "Values are spread otherwise than in the sample, by {:.1f} % of texels: some brightness or "
+            "kind of detail is shown too often. Try another --seed{}.",
+            percent(f.histogram_distance),
+            facts.synth.interior == Construction::quilt ? " or --interior patch" : " or more --colors"));
+}
+
+void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
+  const Landmark& mark = facts.report.landmark;
+  if (mark.deviation < 3.5 || mark.shown < 0.2) return;
+  add(remarks, mark.shown >= 0.4 && mark.deviation >= 4.5 ? Grade::poor : Grade::fair,
+      fmt::format(
+          "The spot round ({}, {}) of the sample is unlike the rest ({:.1f} standard deviations), and "
+          "{:.0f} % of the tiles show it: the eye may find it again and again. Try another --seed, or "
+          "paint it over in the sample.",
+          mark.centre.x, mark.centre.y, mark.deviation, percent(mark.shown)));
+}
+
+} // namespace
+
+BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) {
+  constexpr int worst_borders = 3;
+  BakeFacts facts{made.report,
+                  seam_figures(made.pack, 0, 0, worst_borders),
+                  sample_traits(made.sample.features, made.sample.periods, made.synth.tile_size),
+                  made.synth,
+                  made.flatten,
+                  0.0,
+                  samples[0].image.size(),
+                  tile_count(made.pack.tiles)};
+  if (made.flatten < 100 && has_shading(facts.nature)) {
+    std::vector<SampleMap> flat;
+    for (const SampleMap& map : samples) flat.push_back(flattened(map, 1.0, made.synth.tile_size));
+    facts.flat_drift = sample_traits(feature_image(flat), {}, made.synth.tile_size).drift;
+  }
+  return facts;
+}
+
+std::string_view name_of(Grade grade) {
+  switch (grade) {
+  case Grade::good:
+    return "good";
+  case Grade::fair:
+    return "fair";
+  case Grade::poor:
+    break;
+  }
+  return "poor";
+}
+
+BakeVerdict bake_verdict(const BakeFacts& facts) {
+  BakeVerdict verdict;
+  if (facts.report.figures.sample_step == 0) {
+    add(verdict.remarks, Grade::good, "The sample is one plain value: nothing in it can be seen to repeat.");
+    return verdict;
+  }
+  judge_sample(facts, verdict.remarks);
+  judge_periods(facts, verdict.remarks);
+  judge_cuts(facts, verdict.remarks);
+  judge_borders(facts, verdict.remarks);
+  judge_variety(facts, verdict.remarks);
+  judge_landmark(facts, verdict.remarks);
+  std::stable_sort(verdict.remarks.begin(), verdict.remarks.end(),
+                   [](const BakeRemark& a, const BakeRemark& b) { return a.grade > b.grade; });
+  verdict.grade = verdict.remarks.front().grade;
+  return verdict;
+}
+
+} // namespace tilepack

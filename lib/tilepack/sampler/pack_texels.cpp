@@ -1,0 +1,142 @@
+#include "tilepack/sampler/pack_texels.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/numeric/wrap.h"
+#include "tilepack/mip/level_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tilepack {
+namespace {
+
+const std::vector<PackedMap>& corner_maps(const Pack& pack) {
+  if (!pack.corner_pack)
+    throw Error(ErrorKind::usage, "corner pack", "the pack has none; bake it with --corner-pack");
+  return pack.corner_pack->maps;
+}
+
+int in_texels(double coordinate) {
+  return static_cast<int>(std::floor(coordinate));
+}
+
+} // namespace
+
+PackTexels::PackTexels(const Pack& of_pack, const std::vector<PackedMap>& maps, int map_index,
+                       int first_level, int last_level)
+    : pack(&of_pack) {
+  const int count = static_cast<int>(maps.size());
+  if (map_index < 0 || map_index >= count)
+    throw Error(ErrorKind::usage, "map",
+                std::to_string(map_index) + " is not a map of the pack; it has 0.." +
+                    std::to_string(count - 1));
+  map = &maps[static_cast<std::size_t>(map_index)];
+  alpha = map->role == Role::color && map->channels % 2 == 0;
+  decoded.resize(map->levels.size());
+  if (map->encoding == Encoding::linear) return;
+  const int last = std::min(last_level, levels() - 1);
+  for (int level = std::max(first_level, 0); level <= last; ++level) {
+    const auto l = static_cast<std::size_t>(level);
+    decoded[l] = to_linear(map->levels[l], map->encoding);
+  }
+}
+
+PackTexels::PackTexels(const Pack& of_pack, int map_index, int first_level, int last_level)
+    : PackTexels(of_pack, of_pack.maps, map_index, first_level, last_level) {
+  turned = of_pack.layout.kind == LayoutKind::rotated;
+  layered = of_pack.layout.kind == LayoutKind::array;
+  if (!turned) return;
+  for (int level = 0; level < levels(); ++level) {
+    std::vector<Placement>& of_tiles = placements.emplace_back();
+    for (int tile = 0; tile < static_cast<int>(of_pack.layout.cells.size()); ++tile)
+      of_tiles.push_back(placement(of_pack.layout, tile, of_pack.tile_size, level));
+  }
+}
+
+PackTexels PackTexels::of_corners(const Pack& of_pack, int map_index, int first_level, int last_level) {
+  return PackTexels(of_pack, corner_maps(of_pack), map_index, first_level, last_level);
+}
+
+PackTexels::Place PackTexels::place(std::int64_t cell_x, std::int64_t cell_y) const {
+  const int tile = tile_at(pack->mapping, pack->colors, cell_x, cell_y);
+  const Cell& cell = pack->layout.cells[static_cast<std::size_t>(tile)];
+  return {cell.column, cell.row, tile};
+}
+
+const Image& PackTexels::image(int level) const {
+  const auto l = static_cast<std::size_t>(level);
+  return decoded[l].empty() ? map->levels[l] : decoded[l];
+}
+
+std::span<const float> PackTexels::texel(int level, Place place, int i, int j) const {
+  const Image& texture = image(level);
+  const Size tile = tile_size(level);
+  if (layered) {
+    const int border = pack->layout.border >> level;
+    return texture.texel(std::clamp(i + border, 0, tile.width + 2 * border - 1),
+                         place.row * (tile.height + 2 * border) +
+                             std::clamp(j + border, 0, tile.height + 2 * border - 1));
+  }
+  return texture.texel(wrapped(place.column * tile.width + i, texture.width()),
+                       wrapped(place.row * tile.height + j, texture.height()));
+}
+
+PackTexels::Taps PackTexels::taps(int level, Place place, double fraction_x, double fraction_y,
+                                  Filter filter) const {
+  const Size tile = tile_size(level);
+  Placement::Vector at;
+  if (turned)
+    at = placements[static_cast<std::size_t>(level)][static_cast<std::size_t>(place.tile)].at(fraction_x,
+                                                                                              fraction_y);
+  const auto texel_at = [&](int x, int y) {
+    if (!turned) return texel(level, place, x, y);
+    const Image& texture = image(level);
+    return texture.texel(wrapped(x, texture.width()), wrapped(y, texture.height()));
+  };
+  Taps result;
+  if (filter == Filter::nearest) {
+    result.taps[0] = {
+        turned ? texel_at(in_texels(at.x), in_texels(at.y))
+               : texel_at(nearest_texel(fraction_x, tile.width), nearest_texel(fraction_y, tile.height)),
+        1.0};
+    result.count = 1;
+    return result;
+  }
+  const auto along = [](double coordinate) {
+    const double first = std::floor(coordinate - 0.5);
+    return tilepack::Taps{static_cast<int>(first), coordinate - 0.5 - first};
+  };
+  const tilepack::Taps x = turned ? along(at.x) : bilinear_taps(fraction_x, tile.width);
+  const tilepack::Taps y = turned ? along(at.y) : bilinear_taps(fraction_y, tile.height);
+  // A texel of weight 0 is not read: what lies there, infinity included, must not show.
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      const double weight = (i == 0 ? 1.0 - x.weight : x.weight) * (j == 0 ? 1.0 - y.weight : y.weight);
+      if (weight != 0.0)
+        result.taps[static_cast<std::size_t>(result.count++)] = {texel_at(x.first + i, y.first + j), weight};
+    }
+  return result;
+}
+
+PackTexels::Taps PackTexels::texel_taps(int level, Place place, int i, int j) const {
+  const Size tile = tile_size(level);
+  if (turned) return taps(level, place, (i + 0.5) / tile.width, (j + 0.5) / tile.height, Filter::bilinear);
+  Taps result;
+  result.taps[0] = {texel(level, place, i, j), 1.0};
+  result.count = 1;
+  return result;
+}
+
+int PackTexels::channels() const {
+  return map->channels;
+}
+
+int PackTexels::levels() const {
+  return static_cast<int>(map->levels.size());
+}
+
+Size PackTexels::tile_size(int level) const {
+  return level_size(pack->tile_size, level);
+}
+
+} // namespace tilepack

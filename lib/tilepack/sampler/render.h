@@ -1,0 +1,72 @@
+#pragma once
+
+#include "tilepack/sampler/address.h"
+#include "tilepack/sampler/corner_blend.h"
+#include "tilepack/sampler/filter.h"
+#include "tilepack/sampler/footprint.h"
+#include "tilepack/sampler/pack_texels.h"
+#include "tilepack/sampler/virtual_texture.h"
+
+#include <optional>
+#include <vector>
+
+namespace tilepack {
+
+/// What to render: a window of the virtual texture at one level, magnified or shrunk.
+struct View {
+  VirtualRect rect; ///< in texels of `level`
+  int level = 0;    ///< 0..tile_levels-1
+  double scale = 1; ///< output pixels a texel, > 0: pixel i samples rect.x + (i + 0.5) / scale
+  Filter filter = Filter::trilinear;          ///< trilinear reads the level whose texels are a pixel apart
+  double corner_width = default_corner_width; ///< see corner_weight; 0 leaves a corner pack aside
+  WrapMode border = WrapMode::wrap;           ///< of the virtual texture
+  bool elliptical = false; ///< instead of `filter`, the mean over what each pixel covers (footprint.h)
+};
+
+/// How the rendered values are to be stored.
+struct RenderTarget {
+  Encoding encoding = Encoding::srgb;
+  Depth depth = Depth::u8;
+};
+
+/// Each side of the window times the scale, rounded, at least 1. Throws Error (usage) if a side of the window
+/// is below 1, the scale isn't a positive number, or a side of the picture would pass max_render_side.
+Size output_size(const View& view);
+constexpr int max_render_side = 65536;
+
+/// Renders a view in bands of rows, any rows in any order: the pixels are the same for any banding and any
+/// number of threads, and those of ReferenceSampler.
+///
+/// At scale 1 pixels lie on texels: every filter but the elliptical one gives the texels of the level
+/// themselves, and if encoding and depth are those of the map, bit for bit (of a rotated layout, whose texels
+/// lie elsewhere, what tiles_at_level reads back). Elsewhere filtered normals are renormalised.
+class Renderer {
+public:
+  /// `pack` must outlive this. Throws Error (usage): a map or level the pack doesn't hold, and the errors of
+  /// output_size.
+  Renderer(const Pack& pack, int map, const View& view, const RenderTarget& target);
+
+  Size size() const { return picture; }
+  int channels() const { return texels.channels(); }
+
+  /// Rows first..first+count-1 of the picture, encoded and rounded as the target says.
+  Image rows(int first, int count) const;
+
+private:
+  void render_row(int row, std::span<float> out) const;
+  bool copies_texels() const { return view.scale == 1.0 && !view.elliptical; }
+
+  const Pack* pack;
+  const PackedMap* map;
+  View view;
+  RenderTarget target;
+  Size picture;
+  std::optional<CornerTexels> corners;
+  FootprintEllipse pixel; ///< what one covers, wherever it lies
+  LevelBlend levels;
+  PackTexels texels;
+  std::vector<Image> stored;           ///< at scale 1: the tiles of the level as the target wants them, by id
+  std::vector<TileCoordinate> columns; ///< elsewhere: where the pixels of a row lie
+};
+
+} // namespace tilepack

@@ -1,0 +1,84 @@
+#include "tilepack/sampler/virtual_texture.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/layout/place_tiles.h"
+#include "tilepack/numeric/wrap.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tilepack {
+namespace {
+
+// One row of the window that lies in row y of the texture: cell by cell, since within a cell the texels are
+// consecutive in the tile too.
+void copy_row(const Pack& pack, const std::vector<Image>& tiles, const VirtualRect& rect, std::int64_t y,
+              std::span<float> out) {
+  const Size tile = tiles.front().size();
+  const int texel_y = static_cast<int>(wrapped(y, static_cast<std::int64_t>(tile.height)));
+  const std::int64_t cell_y = (y - texel_y) / tile.height;
+  const auto channels = static_cast<std::size_t>(tiles.front().channels());
+  for (int column = 0; column < rect.width;) {
+    const std::int64_t x = rect.x + column;
+    const int texel_x = static_cast<int>(wrapped(x, static_cast<std::int64_t>(tile.width)));
+    const int count = std::min(tile.width - texel_x, rect.width - column);
+    const int id = tile_at(pack.mapping, pack.colors, (x - texel_x) / tile.width, cell_y);
+    const auto from = tiles[static_cast<std::size_t>(id)].row(texel_y).subspan(
+        static_cast<std::size_t>(texel_x) * channels, static_cast<std::size_t>(count) * channels);
+    std::copy(from.begin(), from.end(),
+              out.begin() + static_cast<std::ptrdiff_t>(column) * tiles.front().channels());
+    column += count;
+  }
+}
+
+// The same where the texture doesn't wrap, texel by texel.
+void copy_bordered_row(const Pack& pack, const std::vector<Image>& tiles, const VirtualRect& rect,
+                       std::int64_t y, WrapMode border, std::span<float> out) {
+  const Size tile = tiles.front().size();
+  const auto channels = static_cast<std::size_t>(tiles.front().channels());
+  for (int column = 0; column < rect.width; ++column) {
+    const std::int64_t x = within(rect.x + column, pack.mapping.size.width * tile.width, border);
+    const int id = tile_at(pack.mapping, pack.colors, x / tile.width, y / tile.height);
+    const auto from = tiles[static_cast<std::size_t>(id)].texel(static_cast<int>(x % tile.width),
+                                                                static_cast<int>(y % tile.height));
+    std::copy(from.begin(), from.end(), out.subspan(static_cast<std::size_t>(column) * channels).begin());
+  }
+}
+
+} // namespace
+
+Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect, WrapMode border) {
+  if (rect.width < 1 || rect.height < 1)
+    throw Error(ErrorKind::usage, "--rect",
+                std::to_string(rect.width) + " x " + std::to_string(rect.height) +
+                    " texels; both sides must be at least 1");
+  Image result(rect.width, rect.height, tiles.at(0).channels());
+  const std::int64_t height = pack.mapping.size.height * tiles.at(0).height();
+  tbb::parallel_for(0, rect.height, [&](int row) {
+    const std::int64_t y = within(rect.y + row, height, border);
+    if (border == WrapMode::wrap)
+      copy_row(pack, tiles, rect, y, result.row(row));
+    else
+      copy_bordered_row(pack, tiles, rect, y, border, result.row(row));
+  });
+  return result;
+}
+
+Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect) {
+  const int maps = static_cast<int>(pack.maps.size());
+  if (map < 0 || map >= maps)
+    throw Error(ErrorKind::usage, "--map",
+                std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
+  const auto& levels = pack.maps[static_cast<std::size_t>(map)].levels;
+  if (level < 0 || level >= static_cast<int>(levels.size()))
+    throw Error(ErrorKind::usage, "--level",
+                std::to_string(level) + " is not stored; the pack has levels 0.." +
+                    std::to_string(levels.size() - 1));
+  return virtual_texture(
+      pack, tiles_at_level(levels[static_cast<std::size_t>(level)], pack.layout, pack.tile_size, level),
+      rect);
+}
+
+} // namespace tilepack

@@ -1,0 +1,324 @@
+#include "tilepack/seam/patch_match.h"
+
+#include "tilepack/match/row_ssd.h"
+#include "tilepack/match/use_counts.h"
+#include "tilepack/numeric/random.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace tilepack {
+namespace {
+
+constexpr int half = 3; // squares are 2 half + 1 texels wide
+constexpr int side = 2 * half + 1;
+
+// What a match in a part of the sample costs beyond its difference, in 1 / unit of that.
+struct Prices {
+  static constexpr int unit = 64;
+  int square = 1; // each holds for so many texels a side, by where a match has its middle
+  int columns = 0;
+  std::vector<std::uint16_t> values;
+
+  int at(SourceTexel s) const {
+    return values[static_cast<std::size_t>(s.y / square) * static_cast<std::size_t>(columns) +
+                  static_cast<std::size_t>(s.x / square)];
+  }
+};
+
+constexpr SourceTexel inactive{-1, -1};
+
+SourceTexel inside(const FeatureImage& image, SourceTexel s) {
+  return {std::clamp(s.x, half, image.width - 1 - half), std::clamp(s.y, half, image.height - 1 - half)};
+}
+
+// For each texel of a canvas the middle of the square in the sample that is like the square round it: the
+// square it stems from, near seams; `inactive` elsewhere.
+std::vector<SourceTexel> first_matches(const FeatureImage& image, const PatchMatchOptions& options,
+                                       const SourceCanvas& canvas) {
+  const auto costs = seams_at_texels(image, canvas);
+  std::vector<SourceTexel> match(canvas.texels.size(), inactive);
+  for (int seam_y = 0; seam_y < canvas.height; ++seam_y)
+    for (int seam_x = 0; seam_x < canvas.width; ++seam_x) {
+      if (costs[canvas.index(seam_x, seam_y)] <= options.seam_threshold) continue;
+      const int first_x = std::max(half, seam_x - options.reach);
+      const int last_x = std::min(canvas.width - 1 - half, seam_x + options.reach);
+      const int last_y = std::min(canvas.height - 1 - half, seam_y + options.reach);
+      for (int y = std::max(half, seam_y - options.reach); y <= last_y; ++y)
+        for (int x = first_x; x <= last_x; ++x) match[canvas.index(x, y)] = inside(image, canvas.at(x, y));
+    }
+  return match;
+}
+
+// One pass over one canvas.
+class PolishPass {
+public:
+  PolishPass(const FeatureImage& feature_image, const Prices& sample_prices,
+             const std::vector<std::uint8_t>& fixed_texels, const PatchMatchOptions& polish_options,
+             SourceCanvas& source_canvas, std::vector<SourceTexel>& matches)
+      : image(feature_image), prices(sample_prices), fixed(fixed_texels), options(polish_options),
+        canvas(source_canvas), match(matches), channels(static_cast<std::size_t>(image.channels)),
+        image_end(image.values.data() + image.values.size()) {
+    for (std::size_t i = 0; i < match.size(); ++i)
+      if (match[i] != inactive) active.push_back(i);
+    if (active.empty()) return;
+    shown.resize(canvas.texels.size() * channels + byte_row_slack);
+    for (std::size_t i = 0; i < canvas.texels.size(); ++i) {
+      const SourceTexel s = canvas.texels[i];
+      std::copy_n(image.texel(s.x, s.y), channels, shown.begin() + static_cast<std::ptrdiff_t>(i * channels));
+    }
+    distance.resize(canvas.texels.size());
+  }
+
+  // Finds a match for each square. `stream` tells passes and canvases apart.
+  //
+  // Sweeps go forward and backward in turn. A neighbour's match was tried in vain two sweeps ago if it has
+  // not changed since, and is not tried again: matches only get better.
+  void look_up(std::uint64_t stream) {
+    for (const std::size_t i : active)
+      distance[i] = priced(match[i], difference(i, match[i], std::numeric_limits<int>::max()));
+    changed.assign(canvas.texels.size(), 0);
+    for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+      const std::uint64_t trials = random_bits(stream, "polish trials", static_cast<std::uint64_t>(sweep));
+      const bool forward = sweep % 2 == 0;
+      const int step = forward ? 1 : -1;
+      const auto news = [&](std::size_t n) { return match[n] != inactive && changed[n] >= sweep - 1; };
+      for (std::size_t n = 0; n < active.size(); ++n) {
+        const std::size_t i = forward ? active[n] : active[active.size() - 1 - n];
+        if (distance[i] == 0) continue;
+        const SourceTexel before = match[i];
+        const std::size_t beside = i - static_cast<std::size_t>(step);
+        const std::size_t above = i - static_cast<std::size_t>(step * canvas.width);
+        if (news(beside)) try_match(i, inside(image, {match[beside].x + step, match[beside].y}));
+        if (news(above)) try_match(i, inside(image, {match[above].x, match[above].y + step}));
+        std::uint64_t bits = mixed(trials + i);
+        // Anywhere, near and beside: trials are cheap only as long as there are few.
+        for (int radius = std::max(image.width, image.height); radius >= 1; radius /= 16) {
+          const auto offset = [&](std::uint64_t word) {
+            return static_cast<int>((word * static_cast<std::uint64_t>(2 * radius + 1)) >> 32) - radius;
+          };
+          const SourceTexel at = match[i];
+          try_match(i, inside(image, {at.x + offset(bits & 0xffffffffu), at.y + offset(bits >> 32)}));
+          bits = mixed(bits + 0x9e3779b97f4a7c15u);
+        }
+        if (match[i] != before) changed[i] = sweep;
+      }
+    }
+  }
+
+  // Replaces each texel by what is nearest to the mean of what the matches of its squares show in its place.
+  void vote() {
+    switch (channels) {
+    case 1:
+      return vote_of<1>();
+    case 3:
+      return vote_of<3>();
+    default:
+      return vote_of<0>();
+    }
+  }
+
+private:
+  // `known`: the number of channels, if the compiler shall know it.
+  template <std::size_t known>
+  void vote_of() {
+    const std::size_t n = known > 0 ? known : channels;
+    std::vector<std::uint16_t> sum(canvas.texels.size() * n); // 49 × 255 at most
+    std::vector<std::uint8_t> votes(canvas.texels.size());
+    for_each_row([&](std::size_t i, SourceTexel, const std::uint8_t* row) {
+      for (std::size_t k = 0; k < side * n; ++k)
+        sum[i * n + k] = static_cast<std::uint16_t>(sum[i * n + k] + row[k]);
+      for (std::size_t k = 0; k < side; ++k) ++votes[i + k];
+    });
+    // Differences from the mean, times the number of votes: (49 × 255)² × 16 fits 32 bits.
+    std::vector<std::uint32_t> least(canvas.texels.size(), std::numeric_limits<std::uint32_t>::max());
+    std::vector<SourceTexel> nearest(canvas.texels.size());
+    for_each_row([&](std::size_t i, SourceTexel s, const std::uint8_t* row) {
+      for (std::size_t k = 0; k < side; ++k, ++i, ++s.x, row += n) {
+        std::uint32_t d = 0;
+        for (std::size_t c = 0; c < n; ++c) {
+          const int e = votes[i] * row[c] - sum[i * n + c];
+          d += static_cast<std::uint32_t>(e * e);
+        }
+        if (d < least[i]) {
+          least[i] = d;
+          nearest[i] = s;
+        }
+      }
+    });
+    for (const std::size_t i : active)
+      if (!fixed[i]) canvas.texels[i] = nearest[i];
+  }
+
+  // visit(index of the first of `side` texels, the sample texel proposed for it, the values of these texels),
+  // row by row of each square.
+  template <typename Visit>
+  void for_each_row(Visit&& visit) const {
+    for (const std::size_t j : active)
+      for (int dy = -half; dy <= half; ++dy) {
+        const SourceTexel s{match[j].x - half, match[j].y + dy};
+        visit(j + static_cast<std::size_t>(dy * canvas.width - half), s, image.texel(s.x, s.y));
+      }
+  }
+
+  // The squared difference of two squares, or some number >= limit if it is not below it.
+  int difference(std::size_t i, SourceTexel s, int limit) const {
+    const std::size_t corner = i - static_cast<std::size_t>(half) * static_cast<std::size_t>(canvas.width) -
+                               static_cast<std::size_t>(half);
+    const std::uint8_t* other = image.texel(s.x - half, s.y - half);
+    const auto stride = static_cast<std::ptrdiff_t>(image.width) * image.channels;
+    const auto own_stride = static_cast<std::ptrdiff_t>(canvas.width) * image.channels;
+    if (other + side * stride + byte_row_slack < image_end) {
+      return squared_difference_of_rows(shown.data() + corner * channels, own_stride, other, stride,
+                                        side * channels, side, limit);
+    }
+    int sum = 0; // too near to the end of the image to be read in whole vectors
+    for (int y = 0; y < side && sum < limit; ++y)
+      for (std::size_t k = 0; k < side * channels; ++k) {
+        const int d = shown[corner * channels + static_cast<std::size_t>(y * own_stride) + k] -
+                      other[y * stride + static_cast<std::ptrdiff_t>(k)];
+        sum += d * d;
+      }
+    return sum;
+  }
+
+  int priced(SourceTexel s, int d) const {
+    return static_cast<int>(
+        std::min<std::int64_t>(std::numeric_limits<int>::max(),
+                               static_cast<std::int64_t>(d) * (Prices::unit + prices.at(s)) / Prices::unit));
+  }
+
+  void try_match(std::size_t i, SourceTexel s) {
+    if (s == match[i]) return;
+    const int d = difference(i, s, distance[i]);
+    if (d >= distance[i]) return;
+    const int cost = priced(s, d);
+    if (cost >= distance[i]) return;
+    distance[i] = cost;
+    match[i] = s;
+  }
+
+  const FeatureImage& image;
+  const Prices& prices;
+  const std::vector<std::uint8_t>& fixed;
+  const PatchMatchOptions& options;
+  SourceCanvas& canvas;
+  std::vector<SourceTexel>& match;
+  std::size_t channels;
+  const std::uint8_t* image_end;
+  std::vector<std::size_t> active; // middles of squares, row by row
+  std::vector<std::uint8_t> shown; // what the canvas shows
+  std::vector<int> distance;       // of each square to its match
+  std::vector<int> changed;        // the last sweep that changed it
+};
+
+// Of a match by its contrast alone.
+Prices calm_prices(const FeatureImage& image, const ContrastRanks& ranks, int square,
+                   double contrast_weight) {
+  Prices prices{square, (image.width + square - 1) / square, {}};
+  for (int y = square / 2; y - square / 2 < image.height; y += square)
+    for (int x = square / 2; x - square / 2 < image.width; x += square) {
+      const int rank =
+          contrast_weight > 0 ? ranks.at(std::min(x, image.width - 1), std::min(y, image.height - 1)) : 0;
+      prices.values.push_back(static_cast<std::uint16_t>(
+          Prices::unit * contrast_weight * (ContrastRanks::count - rank) / ContrastRanks::count));
+    }
+  return prices;
+}
+
+// What is added by how often the canvases show the surroundings of a texel.
+void add_usage(const FeatureImage& image, const std::vector<SourceCanvas>& canvases, Rect shown,
+               double freshness, Prices& prices) {
+  const int square = prices.square;
+  UseCounts usage(image.width, image.height, square);
+  for (const SourceCanvas& canvas : canvases)
+    for (int y = shown.y; y < shown.y + shown.height; ++y)
+      for (int x = shown.x; x < shown.x + shown.width; ++x) {
+        const SourceTexel s = canvas.at(x, y);
+        usage.add({s.x - s.x % square, s.y - s.y % square, square, square}, 1.0);
+      }
+  usage.prepare();
+  const double average = usage.mean();
+  constexpr double highest = 4.0; // times the average; more is no worse
+  const int rows = static_cast<int>(prices.values.size()) / prices.columns;
+  tbb::parallel_for(0, rows, [&](int j) {
+    for (int i = 0; i < prices.columns; ++i) {
+      const double often = usage.mean({(i - 2) * square, (j - 2) * square, 5 * square, 5 * square}) / average;
+      std::uint16_t& price =
+          prices.values[static_cast<std::size_t>(j) * static_cast<std::size_t>(prices.columns) +
+                        static_cast<std::size_t>(i)];
+      price = static_cast<std::uint16_t>(price + Prices::unit * freshness * std::min(often, highest));
+    }
+  });
+}
+
+SourceCanvas shrunk(const FeatureImage& image, const SourceCanvas& canvas, int scale) {
+  SourceCanvas small(canvas.width / scale, canvas.height / scale);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      const SourceTexel s = canvas.at(scale * x, scale * y);
+      small.at(x, y) = {std::clamp((s.x + scale / 2) / scale, 0, image.width - 1),
+                        std::clamp((s.y + scale / 2) / scale, 0, image.height - 1)};
+    }
+  return small;
+}
+
+// Brings what changed back to a canvas at full size.
+void enlarge_changes(const SourceCanvas& before, const SourceCanvas& after, int scale, SourceCanvas& canvas) {
+  for (int y = 0; y < after.height; ++y)
+    for (int x = 0; x < after.width; ++x) {
+      const SourceTexel s = after.at(x, y);
+      if (s == before.at(x, y)) continue;
+      for (int j = 0; j < scale; ++j)
+        for (int i = 0; i < scale; ++i)
+          canvas.at(scale * x + i, scale * y + j) = {scale * s.x + i, scale * s.y + j};
+    }
+}
+
+std::vector<std::uint8_t> shrunk_mask(const std::vector<std::uint8_t>& fixed, const SourceCanvas& canvas,
+                                      int scale) {
+  std::vector<std::uint8_t> small;
+  for (int y = 0; y + scale <= canvas.height; y += scale)
+    for (int x = 0; x + scale <= canvas.width; x += scale) {
+      std::uint8_t any = 0;
+      for (int j = 0; j < scale; ++j)
+        for (int i = 0; i < scale; ++i) any |= fixed[canvas.index(x + i, y + j)];
+      small.push_back(any);
+    }
+  return small;
+}
+
+} // namespace
+
+void match_and_vote(const FeatureImage& image, const ContrastRanks& ranks, int scale,
+                    const std::vector<std::uint8_t>& fixed, Rect shown, const PatchMatchOptions& options,
+                    std::vector<SourceCanvas>& canvases) {
+  if (canvases.empty() || options.passes == 0) return;
+  const SourceCanvas& one = canvases.front();
+  if (std::min({image.width, image.height, one.width / scale, one.height / scale}) < side) return;
+  const auto small_fixed = shrunk_mask(fixed, one, scale);
+  const Rect small_shown{shown.x / scale, shown.y / scale, shown.width / scale, shown.height / scale};
+  const std::size_t count = canvases.size();
+  std::vector<SourceCanvas> before(count);
+  std::vector<SourceCanvas> after(count);
+  std::vector<std::vector<SourceTexel>> matches(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
+    before[n] = after[n] = shrunk(image, canvases[n], scale);
+    matches[n] = first_matches(image, options, after[n]);
+  });
+  const Prices by_contrast = calm_prices(image, ranks, std::max(1, 4 / scale), options.contrast_weight);
+  for (int pass = 0; pass < options.passes; ++pass) {
+    Prices prices = by_contrast;
+    if (options.freshness > 0.0) add_usage(image, after, small_shown, options.freshness, prices);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
+      PolishPass run(image, prices, small_fixed, options, after[n], matches[n]);
+      run.look_up(random_bits(options.seed, "polish pass", n * 64 + static_cast<std::size_t>(pass)));
+      run.vote();
+    });
+  }
+  for (std::size_t n = 0; n < count; ++n) enlarge_changes(before[n], after[n], scale, canvases[n]);
+}
+
+} // namespace tilepack

@@ -1,0 +1,145 @@
+#include "tilepack/synth/border_match_costs.h"
+
+#include <tbb/parallel_for.h>
+
+#include <utility>
+
+namespace tilepack {
+namespace {
+
+constexpr std::size_t most_positions = 10'000;
+
+Positions inside_positions(const FeatureImage& image, Size tile) {
+  Positions p;
+  for (;; ++p.stride) {
+    p.columns = (image.width - tile.width) / p.stride + 1;
+    p.rows = (image.height - tile.height) / p.stride + 1;
+    if (p.count() <= most_positions) return p;
+  }
+}
+
+FeatureImage transposed(const FeatureImage& image) {
+  FeatureImage result{image.height, image.width, image.channels, {}};
+  result.values.reserve(image.values.size());
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x)
+      result.values.insert(result.values.end(), image.texel(y, x), image.texel(y, x) + image.channels);
+  return result;
+}
+
+// What a strip shows of a tile on one side of its edge is a row of texels for each distance from the edge,
+// shorter from row to row by the squares that belong to the strips of the other direction.
+struct SideRow {
+  int from = 0;         // along the edge, in the tile
+  int to = 0;           // past the last
+  int tile_line = 0;    // across the edge, in the tile
+  int strip_across = 0; // in the strip's window
+};
+
+// `before`: the side of lower across, which belongs to the tile above or to the left. `extent`: of the tile,
+// across the edge.
+SideRow side_row(const StripAxes& space, bool before, int extent, int distance) {
+  // The diagonal belongs to the horizontal strips.
+  const int skip = space.direction == Direction::horizontal ? distance : distance + 1;
+  return {skip, std::max(skip, space.length - skip), before ? extent - 1 - distance : distance,
+          before ? space.reach - 1 - distance : space.reach + distance};
+}
+
+int extent_across(const FrameShape& shape, Direction direction) {
+  return direction == Direction::horizontal ? shape.tile.height : shape.tile.width;
+}
+
+} // namespace
+
+const std::uint8_t* StripAt::shown(int along, int across) const {
+  const int half = shape.corner_reach / 2;
+  const SourceTexel t = space.at(along, across);
+  SourceTexel s = sum(place, t);
+  if (along < half) s = sum(corner_origin(space, first, false), t);
+  if (along >= space.length - half) s = sum(corner_origin(space, second, true), t);
+  return image.clamped_texel(s.x, s.y);
+}
+
+BorderMatchCosts::BorderMatchCosts(const FeatureImage& image, const FrameShape& frame_shape)
+    : shape(frame_shape),
+      places(inside_positions(image, shape.tile)), views{
+                                                       view_of(image, space_of(shape, Direction::horizontal)),
+                                                       view_of(transposed(image),
+                                                               space_of(shape, Direction::vertical))} {}
+
+BorderMatchCosts::View BorderMatchCosts::view_of(FeatureImage image, const StripAxes& space) const {
+  const bool swapped = space.direction == Direction::vertical;
+  PairPlanes pairs(image, places.stride);
+  View view{std::move(image),
+            std::move(pairs),
+            swapped ? places.columns : places.rows,
+            swapped ? places.rows : places.columns,
+            {}};
+  const FeatureImage& own = view.image;
+  const auto stride = static_cast<std::size_t>(own.width) + 1;
+  std::vector<std::int64_t> sums(stride * static_cast<std::size_t>(own.height)); // of the texels before
+  for (int y = 0; y < own.height; ++y)
+    for (int x = 0; x < own.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x);
+      sums[i + 1] = sums[i];
+      for (int c = 0; c < own.channels; ++c) sums[i + 1] += own.texel(x, y)[c] * own.texel(x, y)[c];
+    }
+  for (const bool before : {true, false}) {
+    std::vector<std::int64_t>& squares = view.squares[before ? 0 : 1];
+    squares.resize(places.count());
+    for (int distance = 0; distance < space.reach; ++distance) {
+      const SideRow row = side_row(space, before, extent_across(shape, space.direction), distance);
+      for (int line = 0; line < view.lines; ++line) {
+        const std::int64_t* of_line =
+            sums.data() + static_cast<std::size_t>(line * places.stride + row.tile_line) * stride;
+        std::int64_t* square =
+            squares.data() + static_cast<std::size_t>(line) * static_cast<std::size_t>(view.places);
+        for (int i = 0; i < view.places; ++i)
+          square[i] += of_line[i * places.stride + row.to] - of_line[i * places.stride + row.from];
+      }
+    }
+  }
+  return view;
+}
+
+MisfitMap BorderMatchCosts::of_side(const StripAt& strip, bool before) const {
+  const StripAxes& space = strip.space;
+  const bool swapped = space.direction == Direction::vertical;
+  const View& view = views[swapped ? 1 : 0];
+  // sum |S - v|² = sum S² - 2 sum S v + sum v², S of the inside and v of the strip.
+  std::vector<PairTerm> terms;
+  std::int64_t constant = 0;
+  for (int distance = 0; distance < space.reach; ++distance) {
+    const SideRow row = side_row(space, before, extent_across(shape, space.direction), distance);
+    for (int along = row.from; along < row.to; along += 2) {
+      const std::uint8_t* first = strip.shown(along, row.strip_across);
+      const std::uint8_t* second = along + 1 < row.to ? strip.shown(along + 1, row.strip_across) : nullptr;
+      for (int c = 0; c < view.image.channels; ++c) {
+        const int v = first[c], w = second != nullptr ? second[c] : 0;
+        terms.push_back({view.pairs.index(c, along, row.tile_line), static_cast<std::int16_t>(v),
+                         static_cast<std::int16_t>(w)});
+        constant += v * v + w * w;
+      }
+    }
+  }
+  MisfitMap map(places.count());
+  std::vector<std::int64_t> products(static_cast<std::size_t>(view.places));
+  const std::int64_t* squares = view.squares[before ? 0 : 1].data();
+  for (int line = 0; line < view.lines; ++line, squares += view.places) {
+    correlate_pairs(view.pairs.data() + 2 * line * places.stride * view.pairs.row_pitch(), terms, products);
+    for (int place = 0; place < view.places; ++place) {
+      const std::int64_t sum = squares[place] - 2 * products[static_cast<std::size_t>(place)] + constant;
+      const int i = swapped ? line : place;
+      const int j = swapped ? place : line;
+      map[static_cast<std::size_t>(j) * static_cast<std::size_t>(places.columns) +
+          static_cast<std::size_t>(i)] = static_cast<float>(static_cast<double>(sum) / shape.reach);
+    }
+  }
+  return map;
+}
+
+std::array<MisfitMap, 2> BorderMatchCosts::of(const StripAt& strip) const {
+  return {of_side(strip, true), of_side(strip, false)};
+}
+
+} // namespace tilepack

@@ -1,0 +1,52 @@
+#include "tilepack/synth/border_step.h"
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace tilepack {
+namespace {
+
+int step(const std::uint8_t* a, const std::uint8_t* b, int channels) {
+  int sum = 0;
+  for (int c = 0; c < channels; ++c) sum += std::abs(a[c] - b[c]);
+  return sum;
+}
+
+int step_at(const FeatureImage& image, const StripAxes& space, SourceTexel place, int along) {
+  const SourceTexel before = sum(place, space.at(along, space.reach - 1));
+  const SourceTexel after = sum(place, space.at(along, space.reach));
+  return step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y), image.channels);
+}
+
+} // namespace
+
+double mean_step(const FeatureImage& image, Direction direction) {
+  const int dx = direction == Direction::vertical ? 1 : 0;
+  const int dy = 1 - dx;
+  std::int64_t total = 0;
+  for (int y = dy; y < image.height; ++y)
+    for (int x = dx; x < image.width; ++x)
+      total += step(image.texel(x - dx, y - dy), image.texel(x, y), image.channels);
+  return static_cast<double>(total) / (static_cast<double>(image.width - dx) * (image.height - dy));
+}
+
+double step_across(const FeatureImage& image, const StripAxes& space, SourceTexel place) {
+  std::int64_t total = 0;
+  for (int along = 0; along < space.length; ++along) total += step_at(image, space, place, along);
+  return static_cast<double>(total) / space.length;
+}
+
+double step_across(const FeatureImage& image, const FrameShape& shape, const StripAxes& space,
+                   SourceTexel place, SourceTexel first, SourceTexel second) {
+  const int half = shape.corner_reach / 2;
+  std::int64_t total = 0;
+  for (int along = 0; along < space.length; ++along) {
+    SourceTexel origin = place;
+    if (along < half) origin = corner_origin(space, first, false);
+    if (along >= space.length - half) origin = corner_origin(space, second, true);
+    total += step_at(image, space, origin, along);
+  }
+  return static_cast<double>(total) / space.length;
+}
+
+} // namespace tilepack

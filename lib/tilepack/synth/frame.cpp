@@ -1,0 +1,46 @@
+#include "tilepack/synth/frame.h"
+
+#include <algorithm>
+
+namespace tilepack {
+
+FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, double reach,
+                       double corner_reach) {
+  FrameShape shape;
+  shape.tile = options.tile_size;
+  shape.phase = PeriodAlignment(periods, shape.tile);
+  const int side = std::min(options.tile_size.width, options.tile_size.height);
+  shape.guard = std::max(1, options.guard);
+  shape.reach =
+      std::clamp(static_cast<int>(side * reach), shape.guard + 1, std::max(shape.guard + 1, side / 2));
+  shape.corner_reach =
+      std::clamp(static_cast<int>(side * corner_reach), shape.reach, std::max(shape.reach, side / 2));
+  if (options.coloring == Coloring::corner) {
+    const int k = options.colors.corner;
+    shape.corners = k;
+    for (int first = 0; first < k; ++first)
+      for (int second = 0; second < k; ++second) shape.horizontal.push_back({first, second});
+    shape.vertical = shape.horizontal;
+    for (const CornerTile& t : complete_corner_set(k))
+      shape.tiles.push_back({t.nw * k + t.ne, t.ne * k + t.se, t.sw * k + t.se, t.nw * k + t.sw});
+  } else {
+    shape.corners = 1;
+    shape.horizontal.resize(static_cast<std::size_t>(options.colors.horizontal));
+    shape.vertical.resize(static_cast<std::size_t>(options.colors.vertical));
+    for (const EdgeTile& t : complete_edge_set(options.colors.horizontal, options.colors.vertical))
+      shape.tiles.push_back({t.north, t.east, t.south, t.west});
+  }
+  return shape;
+}
+
+FrameShape halved(const FrameShape& shape, int times) {
+  FrameShape small = shape;
+  const int scale = 1 << times;
+  small.tile = {shape.tile.width / scale, shape.tile.height / scale};
+  small.guard = shape.guard / scale;
+  small.reach = std::max(1, shape.reach / scale);
+  small.corner_reach = std::max(small.reach, shape.corner_reach / scale);
+  return small;
+}
+
+} // namespace tilepack

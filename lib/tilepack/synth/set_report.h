@@ -1,0 +1,46 @@
+#pragma once
+
+#include "tilepack/exemplar/sample_analysis.h"
+#include "tilepack/tileset/set_figures.h"
+#include "tilepack/tileset/source_map.h"
+
+#include <vector>
+
+namespace tilepack {
+
+/// Figures of one tile, as in SetFigures.
+struct TileFigures {
+  int cut_length = 0;
+  double cut_mean = 0;
+  double cut_p95 = 0;
+  double in_pieces = 0;
+  double fresh = 0;
+};
+
+struct SetReport {
+  SetFigures figures;
+  std::vector<TileFigures> tiles; ///< by id
+  Landmark landmark;              ///< deviation 0 if nothing stands out and is shown
+};
+
+/// `sample`: as synthesis saw it.
+SetReport set_report(const SampleAnalysis& sample, const SourceMap& sources);
+
+/// One texel of cut, for drawing.
+struct Cut {
+  int x = 0; ///< the west or north one of the two texels
+  int y = 0;
+  bool to_south = false; ///< the other one is its neighbour in the south, else in the east
+  double visibility = 0;
+};
+std::vector<Cut> cuts_of_tile(const FeatureImage& image, const SourceMap& sources, int tile);
+
+/// How many tiles show each texel of the sample, row by row.
+std::vector<int> tiles_showing(const SourceMap& sources, Size sample);
+
+/// Areas of a tile that were copied in one piece: a number for each texel, row by row, counting up from 0 in
+/// the order in which pieces are met. Texels of one piece are connected, without a cut between neighbours
+/// along some way, and have one offset to the sample.
+std::vector<int> pieces_of_tile(const SourceMap& sources, int tile);
+
+} // namespace tilepack

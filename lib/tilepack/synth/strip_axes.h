@@ -1,0 +1,44 @@
+#pragma once
+
+#include "tilepack/match/patch_search.h"
+#include "tilepack/synth/frame.h"
+
+namespace tilepack {
+
+enum class Direction { horizontal, vertical };
+
+/// A strip of either direction in one frame of reference: `along` its edge, `across` it.
+struct StripAxes {
+  Direction direction = Direction::horizontal;
+  int length = 0; ///< along: the tile's side
+  int reach = 0;  ///< across: half the width
+
+  int width() const { return direction == Direction::horizontal ? length : 2 * reach; }
+  int height() const { return direction == Direction::horizontal ? 2 * reach : length; }
+  /// (along, across) as (x, y) of the strip's window.
+  SourceTexel at(int along, int across) const {
+    return direction == Direction::horizontal ? SourceTexel{along, across} : SourceTexel{across, along};
+  }
+};
+
+StripAxes space_of(const FrameShape& shape, Direction direction);
+
+inline SourceTexel sum(SourceTexel a, SourceTexel b) {
+  return {a.x + b.x, a.y + b.y};
+}
+
+/// Where the corner patch `corner` (see FrameSources) at one of its ends puts the strip's north-west texel, as a
+/// place in the sample.
+SourceTexel corner_origin(const StripAxes& space, SourceTexel corner, bool second);
+
+/// Where a strip's window lies in the tile south or east of its edge, in texels of a sample `scale` times as
+/// large.
+inline SourceTexel strip_place(const StripAxes& space, int scale) {
+  return space.at(0, -space.reach * scale);
+}
+
+/// What a strip's window overlaps at its two ends.
+Overlap end_overlap(const FeatureImage& image, const FrameShape& shape, const StripAxes& space,
+                    SourceTexel first, SourceTexel second);
+
+} // namespace tilepack

@@ -1,0 +1,87 @@
+#include "tilepack/synth/synthesize.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/synth/framed_set.h"
+#include "tilepack/synth/quilt.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace tilepack {
+namespace {
+
+constexpr int smallest_tile = 4;
+constexpr int largest_tile = 4096;
+constexpr int most_edge_colors = 8;
+constexpr int most_corner_colors = 4;
+constexpr int highest_effort = 9;
+
+void require_in_range(const char* option, int value, int low, int high, const char* way_out) {
+  if (value < low || value > high)
+    throw Error(ErrorKind::usage, option, fmt::format("{} is not in {}..{}; {}", value, low, high, way_out));
+}
+
+void require_valid(const SynthOptions& options) {
+  for (const int side : {options.tile_size.width, options.tile_size.height})
+    require_in_range("--tile-size", side, smallest_tile, largest_tile,
+                     "give each side in texels, such as 128");
+  if (options.coloring == Coloring::edge) {
+    for (const int colors : {options.colors.horizontal, options.colors.vertical})
+      require_in_range("--colors", colors, 1, most_edge_colors, "2 or 3 suit most textures");
+  } else {
+    require_in_range("--colors", options.colors.corner, 1, most_corner_colors,
+                     "2 or 3 suit most textures; edge coloring allows 8");
+    if (options.interior == Construction::quilt)
+      throw Error(ErrorKind::usage, "--interior",
+                  "quilt is made for edge coloring only; use --interior patch or --coloring edge");
+  }
+  const int smaller_side = std::min(options.tile_size.width, options.tile_size.height);
+  require_in_range("--guard", options.guard, 0, smaller_side / 8,
+                   "a guard takes at most an eighth of the tile");
+  require_in_range("--effort", options.effort, 0, highest_effort, "5 is the default");
+}
+
+void require_one_size(std::span<const SampleMap> samples) {
+  if (samples.empty()) throw Error(ErrorKind::usage, "sample", "no map was given; at least one is needed");
+  const Size size = samples.front().image.size();
+  for (const SampleMap& map : samples)
+    if (map.image.size() != size)
+      throw Error(
+          ErrorKind::invalid_content, map.name,
+          fmt::format("is {} x {} texels, but {} is {} x {}; all maps of a material must have one size",
+                      map.image.width(), map.image.height(), samples.front().name, size.width, size.height));
+}
+
+void require_fitting(const std::string& name, Size size, Size tile) {
+  if (size.width >= tile.width && size.height >= tile.height) return;
+  const int fits = std::min(size.width, size.height);
+  const std::string way_out =
+      fits >= smallest_tile
+          ? fmt::format("the largest square tile that fits is {}", std::min(fits, largest_tile))
+          : fmt::format("no tile fits, since a tile has at least {} texels a side", smallest_tile);
+  throw Error(ErrorKind::invalid_content, name,
+              fmt::format("{} x {} texels are too few for a tile of {} x {}; {}", size.width, size.height,
+                          tile.width, tile.height, way_out));
+}
+
+} // namespace
+
+SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& options,
+                     const Progress& progress) {
+  require_valid(options);
+  require_one_size(samples);
+  require_fitting(samples.front().name, samples.front().image.size(), options.tile_size);
+  return synthesize(analysed(samples), options, progress);
+}
+
+SourceMap synthesize(const SampleAnalysis& sample, const SynthOptions& options, const Progress& progress) {
+  const FeatureImage& image = sample.features;
+  require_valid(options);
+  require_fitting("sample", {image.width, image.height}, options.tile_size);
+  if (options.interior == Construction::framed)
+    return framed_set(sample, options, settings_for(options.effort, options.seed), progress);
+  return quilted(image, options, chosen_edge_patches(image, options, progress));
+}
+
+} // namespace tilepack

@@ -1,0 +1,65 @@
+#include "support/samples.h"
+
+#include "tilepack/match/patch_search.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tilepack;
+
+namespace {
+
+FeatureImage noise(int width, int height, int channels, std::uint64_t seed) {
+  FeatureImage image{width, height, channels, {}};
+  for (int i = 0; i < width * height * channels; ++i)
+    image.values.push_back(
+        static_cast<std::uint8_t>(random_below(seed, "noise", static_cast<std::uint64_t>(i), 256)));
+  return image;
+}
+
+} // namespace
+
+TEST_CASE("mismatches by Fourier transform equal those counted texel by texel") {
+  struct Case {
+    int width, height, channels, patch_width, patch_height;
+  };
+  for (const Case& c :
+       {Case{37, 23, 3, 9, 5}, Case{16, 16, 1, 16, 16}, Case{41, 50, 4, 1, 1}, Case{64, 30, 16, 30, 30}}) {
+    const FeatureImage image = noise(c.width, c.height, c.channels, 3);
+    const FeatureImage layers = noise(c.patch_width, c.patch_height, c.channels, 4);
+    Overlap overlap(c.patch_width, c.patch_height, c.channels);
+    std::vector<int> weights;
+    for (int y = 0; y < c.patch_height; ++y)
+      for (int x = 0; x < c.patch_width; ++x) {
+        weights.push_back(static_cast<int>(random_below(5, "weight", weights.size(), 65)));
+        overlap.add(x, y, layers.texel(x, y), weights.back());
+        overlap.add(x, y, layers.texel(0, 0), 1);
+      }
+    const PositionMap map = PatchSearch(image).mismatches(overlap);
+    REQUIRE(map.width == c.width - c.patch_width + 1);
+    REQUIRE(map.height == c.height - c.patch_height + 1);
+    bool equal = true;
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) {
+        std::int64_t sum = 0;
+        for (int j = 0; j < c.patch_height; ++j)
+          for (int i = 0; i < c.patch_width; ++i) {
+            const auto* texel = image.texel(x + i, y + j);
+            sum += std::int64_t{weights[static_cast<std::size_t>(j * c.patch_width + i)]} *
+                   squared_difference(texel, layers.texel(i, j), c.channels);
+            sum += squared_difference(texel, layers.texel(0, 0), c.channels);
+          }
+        equal = equal && sum == map.at(x, y);
+      }
+    CHECK(equal);
+  }
+}
+
+TEST_CASE("a patch taken from the image is found where it was taken") {
+  const FeatureImage image = noise(60, 44, 3, 9);
+  Overlap overlap(12, 8, 3);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 12; ++x) overlap.add(x, y, image.texel(31 + x, 17 + y));
+  const PositionMap map = PatchSearch(image).mismatches(overlap);
+  CHECK(map.at(31, 17) == 0);
+  CHECK(std::count(map.values.begin(), map.values.end(), 0) == 1);
+}

@@ -1,0 +1,117 @@
+#include "support/samples.h"
+
+#include "tilepack/seam/graph_cut.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tilepack;
+
+namespace {
+
+FeatureImage noise(int width, int height, std::uint64_t seed) {
+  FeatureImage image{width, height, 3, {}};
+  for (int i = 0; i < width * height * 3; ++i)
+    image.values.push_back(
+        static_cast<std::uint8_t>(random_below(seed, "noise", static_cast<std::uint64_t>(i), 256)));
+  return image;
+}
+
+// A canvas of vertical bands from different places, so that it has seams of its own.
+SourceCanvas banded(int width, int height, std::uint64_t seed) {
+  SourceCanvas canvas(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int shift = static_cast<int>(random_below(seed, "band", static_cast<std::uint64_t>(x / 2), 12));
+      canvas.at(x, y) = {x + shift, y + shift / 2};
+    }
+  return canvas;
+}
+
+LaidPatch whole(const SourceCanvas& canvas, SourceTexel origin) {
+  LaidPatch move{{0, 0, canvas.width, canvas.height}, origin, {}};
+  move.freedom.assign(canvas.texels.size(), CutConstraint::free);
+  return move;
+}
+
+std::int64_t least_by_trying(const FeatureImage& image, const SourceCanvas& start, const LaidPatch& move) {
+  std::vector<std::size_t> open;
+  SourceCanvas canvas = start;
+  for (std::size_t i = 0; i < canvas.texels.size(); ++i) {
+    const int x = static_cast<int>(i) % canvas.width;
+    const int y = static_cast<int>(i) / canvas.width;
+    if (move.freedom[i] == CutConstraint::free) open.push_back(i);
+    if (move.freedom[i] == CutConstraint::take) canvas.texels[i] = {move.origin.x + x, move.origin.y + y};
+  }
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  for (std::uint32_t bits = 0; bits < (1u << open.size()); ++bits) {
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const int x = static_cast<int>(open[k]) % canvas.width;
+      const int y = static_cast<int>(open[k]) / canvas.width;
+      canvas.texels[open[k]] =
+          (bits >> k & 1u) != 0 ? SourceTexel{move.origin.x + x, move.origin.y + y} : start.texels[open[k]];
+    }
+    least = std::min(least, seam_energy(image, canvas));
+  }
+  return least;
+}
+
+} // namespace
+
+TEST_CASE("a cut move never raises the seam energy") {
+  const FeatureImage image = noise(48, 48, 1);
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SourceCanvas canvas = banded(20, 16, seed);
+    const std::int64_t before = seam_energy(image, canvas);
+    const LaidPatch move = whole(canvas, {static_cast<int>(random_below(seed, "ox", 0, 28)),
+                                          static_cast<int>(random_below(seed, "oy", 0, 32))});
+    const bool changed = lay_patch(image, canvas, move);
+    CHECK(seam_energy(image, canvas) <= before);
+    CHECK(changed == (canvas.texels != banded(20, 16, seed).texels));
+  }
+}
+
+TEST_CASE("a cut move over a canvas without seams is the best of all ways to lay it") {
+  const FeatureImage image = noise(24, 24, 2);
+  for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    SourceCanvas canvas(5, 4);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 5; ++x) canvas.at(x, y) = {x + 1, y + 2};
+    LaidPatch move = whole(canvas, {7 + static_cast<int>(seed % 5), 9});
+    for (std::size_t i = 0; i < move.freedom.size(); ++i) {
+      const auto draw = random_below(seed, "freedom", i, 6);
+      move.freedom[i] = draw == 0   ? CutConstraint::take
+                        : draw == 1 ? CutConstraint::keep
+                                    : CutConstraint::free;
+    }
+    const std::int64_t least = least_by_trying(image, canvas, move);
+    lay_patch(image, canvas, move);
+    CHECK(seam_energy(image, canvas) == least);
+  }
+}
+
+TEST_CASE("a cut move keeps what must stay and takes what must go") {
+  const FeatureImage image = noise(40, 40, 3);
+  const SourceCanvas start = banded(12, 9, 5);
+  SourceCanvas canvas = start;
+  LaidPatch move{{3, 2, 6, 5}, {11, 13}, {}};
+  for (int i = 0; i < 30; ++i)
+    move.freedom.push_back(i % 3 == 0   ? CutConstraint::take
+                           : i % 3 == 1 ? CutConstraint::keep
+                                        : CutConstraint::free);
+  lay_patch(image, canvas, move);
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 12; ++x) {
+      const bool inside = x >= 3 && x < 9 && y >= 2 && y < 7;
+      const int kind = inside ? ((y - 2) * 6 + x - 3) % 3 : 1;
+      if (kind == 1) CHECK(canvas.at(x, y) == start.at(x, y));
+      if (kind == 0) CHECK(canvas.at(x, y) == SourceTexel{11 + x, 13 + y});
+    }
+}
+
+TEST_CASE("texels that are neighbours in the sample have no seam") {
+  const FeatureImage image = noise(10, 10, 4);
+  CHECK(seam_cost(image, {3, 3}, {4, 3}, 1, 0) == 0);
+  CHECK(seam_cost(image, {3, 3}, {3, 4}, 0, 1) == 0);
+  CHECK(seam_cost(image, {3, 3}, {5, 3}, 1, 0) > 0);
+  CHECK(seam_cost(image, {9, 9}, {0, 0}, 1, 0) > 0); // at the sample's end the last texel stands for the next
+}
