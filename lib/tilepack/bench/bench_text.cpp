@@ -103,7 +103,7 @@ std::string bench_json(const Bench& bench) {
                      {"ratios", std::move(ratios)},
                      {"sizes", std::move(sizes)},
                      {"coordinates", std::move(coordinates)},
-                     {"stress_lookups", std::move(hard)},
+                     {"hard_lookups", std::move(hard)},
                      {"mips_in_short", std::move(summaries)},
                      {"mips", Json::parse(reference_errors_json(bench.mips))}};
   return json.dump(2) + '\n';
