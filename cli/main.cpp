@@ -122,7 +122,7 @@ int guarded_run(const std::vector<std::string>& arguments) {
   } catch (const Interrupted&) {
     console.note("interrupted; nothing was written");
   } catch (const Error& error) {
-    console.error(error.what());
+    console.error(error.message(FieldSpelling::option));
     return exit_code(error.kind());
   } catch (const std::bad_alloc&) {
     console.error("out of memory; smaller tiles, fewer colors or a smaller image need less");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/error/field.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -20,15 +22,27 @@ int exit_code(ErrorKind kind);
 
 /// The one exception type of the library.
 ///
-/// `where` names the file, option or field (may be empty); `what_happened` gives the offending value, the
-/// allowed range and the way out, in one sentence or two. `what()` joins them as "where: what happened".
+/// `where` names the file, or the option as field("layout"), and may be empty; `what_happened` gives the
+/// offending value, the allowed range and the way out, in one sentence or two. Both may hold marked fields
+/// (error/field.h). what() joins them as "where: what happened", fields spelled plainly.
 class Error : public std::runtime_error {
 public:
   Error(ErrorKind error_kind, const std::string& where, const std::string& what_happened);
   ErrorKind kind() const { return kind_of_error; }
 
+  /// The option that is to blame, such as "layout"; empty if `where` is no field.
+  std::string field() const { return field_name(marked_where); }
+
+  const std::string& where() const { return marked_where; }        ///< fields marked
+  const std::string& what_happened() const { return marked_what; } ///< fields marked
+
+  /// what() with fields spelled for the reader.
+  std::string message(FieldSpelling spelling) const;
+
 private:
   ErrorKind kind_of_error;
+  std::string marked_where;
+  std::string marked_what;
 };
 
 } // namespace tilepack
