@@ -2,7 +2,7 @@
 
 #include "interrupt.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,15 +1,13 @@
-#include "help_format.h"
 #include "interrupt.h"
 #include "verb.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/error/nearest_name.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <exception>
-#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -30,7 +28,7 @@ const Verb* find_verb(const std::string& name) {
 std::string listing() {
   std::string text =
       "tilepack turns texture samples into tile packs, and renders, measures and checks them.\n\n"
-      "UseCounts: tilepack VERB [OPTIONS]\n\nVerbs:\n";
+      "Usage: tilepack VERB [OPTIONS]\n\nVerbs:\n";
   for (const Verb& verb : verb_table()) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
   text += fmt::format("  {:<10} {}\n", "help", "this list, or the help of one verb: tilepack help VERB");
   text +=
@@ -38,59 +36,24 @@ std::string listing() {
   return text + exit_codes;
 }
 
-std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
-  const std::string nearest = nearest_name(name, known);
-  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-}
-
 const Verb& verb_named(const std::string& name) {
   if (const Verb* verb = find_verb(name)) return *verb;
   std::vector<std::string> known{"help"};
   for (const Verb& verb : verb_table()) known.push_back(verb.name);
-  std::string hint = suggestion(name, known);
-  if (hint.empty()) hint = "; `tilepack help` lists them";
-  throw Error(ErrorKind::usage, "", fmt::format("there is no verb '{}'{}", name, hint));
+  const std::string nearest = nearest_name(name, known);
+  throw Error(ErrorKind::usage, "",
+              fmt::format("there is no verb '{}'; {}", name,
+                          nearest.empty() ? "`tilepack help` lists them"
+                                          : fmt::format("did you mean '{}'?", nearest)));
 }
 
-// CLI11 reports a missing argument before an unknown option; but what it could not place tells more, since a
-// mistyped option is what leaves arguments out of place.
-std::string explained(const Verb& verb, const CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<std::string> extras = app.remaining();
-  const auto flag = std::find_if(extras.begin(), extras.end(), [](const std::string& argument) {
-    return argument.size() > 1 && argument.front() == '-';
-  });
-  if (flag != extras.end()) {
-    std::vector<std::string> known;
-    for (const CLI::Option* option : app.get_options())
-      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    const std::string name = flag->substr(0, flag->find('='));
-    return fmt::format("unknown option '{}'{}", name, suggestion(name, known));
-  }
-  if (!extras.empty()) return fmt::format("unexpected argument '{}'{}", extras.front(), verb.more);
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
-    const std::string what = error.what(); // "--report: 1 required FILE.html missing"
-    const std::string name = what.substr(0, what.find(':'));
-    if (const CLI::Option* option = app.get_option_no_throw(name))
-      return fmt::format("{}: its value is missing; write {} {}", name, name, option->get_type_name());
-  }
-  return error.what();
-}
-
-int run_verb(const Verb& verb, std::vector<std::string> arguments, Console& console) {
-  CLI::App app(verb.summary + ".", "tilepack " + verb.name);
-  app.footer("\nExample:\n" + verb.example);
-  app.formatter(std::make_shared<HelpFormat>());
-  app.option_defaults()->take_last(); // scripts append to override; what collects says take_all itself
-  app.add_flag("-q,--quiet", console.quiet, "no progress, notes and warnings");
-  const Action action = verb.declare(app);
-  try {
-    std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them last first
-    app.parse(std::move(arguments));
-  } catch (const CLI::CallForHelp&) {
-    console.print(app.help());
+int run_verb(const Verb& verb, const std::vector<std::string>& arguments, Console& console) {
+  Options options({"tilepack " + verb.name, verb.summary, verb.example, verb.more});
+  options.flag("-q,--quiet", console.quiet, "no progress, notes and warnings");
+  const Action action = verb.declare(options);
+  if (!options.parse(arguments)) {
+    console.print(options.help());
     return 0;
-  } catch (const CLI::ParseError& error) {
-    throw Error(ErrorKind::usage, "", explained(verb, app, error));
   }
   if (interrupted()) throw Interrupted();
   return action(console);

@@ -75,61 +75,54 @@ Scene scene_of(const CameraArguments& arguments) {
 
 } // namespace
 
-void add_camera_options(CLI::App& app, CameraArguments& a) {
-  const char* const group = "Camera views";
-  app.add_option("--camera", a.camera,
-                 "view in perspective: eye x,y,z, target x,y,z, up x,y,z and the vertical field of view in "
-                 "degrees, ten numbers; the ground is the plane y = 0, v growing with z")
-      ->type_name("EYE,TARGET,UP,FOV")
-      ->group(group);
-  app.add_option("--size", a.size, "of the view in pixels (default 1280x720)")
-      ->type_name("WxH")
-      ->group(group);
-  app.add_option("--mesh", a.mesh, "triangles with texture coordinates instead of the ground, an OBJ file")
-      ->type_name("FILE.obj")
-      ->group(group);
-  app.add_option(
-         "--repeat", a.repeat,
-         "tiles a world unit of the ground or a unit of texture coordinate, 0.000001 to 1000000 (default "
-         "1)")
-      ->check(number(1e-6, 1e6, " tiles a unit"))
-      ->type_name("N")
-      ->group(group);
-  app.add_option("--span", a.span,
-                 "how scanlines are stepped: exact (default), euler1, euler2, newton, newton-direct, "
-                 "newton-general, affine, estimate")
-      ->type_name("METHOD")
-      ->group(group);
-  app.add_option("--reseed", a.reseed, "an exact value every N pixels (default: only at the near end)")
-      ->check(whole_number(0, max_span_pixels, " (0: only at the near end)"))
-      ->type_name("N")
-      ->group(group);
-  app.add_option("--span-error", a.span_error,
-                 "choose --reseed so that no pixel is off by more than this many, at most 1000")
-      ->check(positive_number(1000, " pixels"))
-      ->type_name("PIXELS")
-      ->group(group);
-  app.add_option("--precision", a.precision, "of the stepping; f32 unless given")
-      ->check(one_of("f32|f64"))
-      ->type_name("f32|f64")
-      ->group(group);
-  app.add_option("--background", a.background,
-                 "what shows where nothing is, one stored value a channel (default 0)")
-      ->type_name("V,V,V")
-      ->group(group);
+void add_camera_options(Options& options, CameraArguments& a) {
+  options.group("Camera views");
+  options
+      .option("--camera", a.camera,
+              "view in perspective: eye x,y,z, target x,y,z, up x,y,z and the vertical field of view in "
+              "degrees, ten numbers; the ground is the plane y = 0, v growing with z")
+      .value("EYE,TARGET,UP,FOV");
+  options.option("--size", a.size, "of the view in pixels (default 1280x720)").value("WxH");
+  options.option("--mesh", a.mesh, "triangles with texture coordinates instead of the ground, an OBJ file")
+      .value("FILE.obj");
+  options
+      .option(
+          "--repeat", a.repeat,
+          "tiles a world unit of the ground or a unit of texture coordinate, 0.000001 to 1000000 (default "
+          "1)")
+      .check(number(1e-6, 1e6, " tiles a unit"))
+      .value("N");
+  options
+      .option("--span", a.span,
+              "how scanlines are stepped: exact (default), euler1, euler2, newton, newton-direct, "
+              "newton-general, affine, estimate")
+      .value("METHOD");
+  options.option("--reseed", a.reseed, "an exact value every N pixels (default: only at the near end)")
+      .check(whole_number(0, max_span_pixels, " (0: only at the near end)"))
+      .value("N");
+  options
+      .option("--span-error", a.span_error,
+              "choose --reseed so that no pixel is off by more than this many, at most 1000")
+      .check(positive_number(1000, " pixels"))
+      .value("PIXELS");
+  options.option("--precision", a.precision, "of the stepping; f32 unless given").one_of("f32|f64");
+  options
+      .option("--background", a.background,
+              "what shows where nothing is, one stored value a channel (default 0)")
+      .value("V,V,V");
 }
 
-void refuse_camera_options(const CLI::App& app) {
+void refuse_camera_options(const Options& options) {
   for (const char* name : camera_options) {
-    if (app.count(name) > 0) {
+    if (options.given(name)) {
       throw Error(ErrorKind::usage, name, "is for camera views only; add --camera or leave it out");
     }
   }
 }
 
-void refuse_window_options(const CLI::App& app) {
+void refuse_window_options(const Options& options) {
   for (const char* name : window_options) {
-    if (app.count(name) > 0) {
+    if (options.given(name)) {
       throw Error(ErrorKind::usage, name, "is for windows of the texture; leave it or --camera out");
     }
   }

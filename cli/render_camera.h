@@ -1,11 +1,10 @@
 #pragma once
 
 #include "console.h"
+#include "options.h"
 
 #include "tilepack/pack/pack.h"
 #include "tilepack/sampler/render.h"
-
-#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>
@@ -25,11 +24,11 @@ struct CameraArguments {
   std::string background;
 };
 
-void add_camera_options(CLI::App& app, CameraArguments& arguments);
+void add_camera_options(Options& options, CameraArguments& arguments);
 
 /// Throw Error (usage) when an option was given that goes only with the other kind of rendering.
-void refuse_camera_options(const CLI::App& app); ///< for windows: an option that needs --camera
-void refuse_window_options(const CLI::App& app); ///< for views: --rect, --level, --scale
+void refuse_camera_options(const Options& options); ///< for windows: an option that needs --camera
+void refuse_window_options(const Options& options); ///< for views: --rect, --level, --scale
 
 /// Renders the view and writes it. `filter`: trilinear or anisotropic.
 int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,

@@ -1,6 +1,6 @@
 #include "value_check.h"
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <charconv>
 
@@ -18,46 +18,40 @@ bool parse(const std::string& text, Number& value) {
 }
 
 template <typename Condition>
-CLI::Validator number_where(Condition condition, const std::string& allowed) {
-  return CLI::Validator(
-      [=](const std::string& text) {
-        double value = 0;
-        return parse(text, value) && condition(value) ? std::string() : refusal(text, allowed);
-      },
-      "");
+Check number_where(Condition condition, const std::string& allowed) {
+  return [=](const std::string& text) {
+    double value = 0;
+    return parse(text, value) && condition(value) ? std::string() : refusal(text, allowed);
+  };
 }
 
 } // namespace
 
-CLI::Validator whole_number(int lowest, int highest, const std::string& note) {
+Check whole_number(int lowest, int highest, const std::string& note) {
   const std::string allowed = fmt::format("a whole number of {} to {}{}", lowest, highest, note);
-  return CLI::Validator(
-      [=](const std::string& text) {
-        int value = 0;
-        const bool plain = parse(text, value) && text == fmt::format("{}", value); // CLI11 takes 010 for 8
-        return plain && value >= lowest && value <= highest ? std::string() : refusal(text, allowed);
-      },
-      "");
+  return [=](const std::string& text) {
+    int value = 0;
+    const bool plain = parse(text, value) && text == fmt::format("{}", value); // CLI11 takes 010 for 8
+    return plain && value >= lowest && value <= highest ? std::string() : refusal(text, allowed);
+  };
 }
 
-CLI::Validator number(double lowest, double highest, const std::string& note) {
+Check number(double lowest, double highest, const std::string& note) {
   return number_where([=](double value) { return value >= lowest && value <= highest; },
                       fmt::format("a number of {} to {}{}", lowest, highest, note));
 }
 
-CLI::Validator positive_number(double highest, const std::string& note) {
+Check positive_number(double highest, const std::string& note) {
   return number_where([=](double value) { return value > 0 && value <= highest; },
                       fmt::format("a number above 0, up to {}{}", highest, note));
 }
 
-CLI::Validator one_of(const std::string& words) {
-  return CLI::Validator(
-      [=](const std::string& text) {
-        const bool good = !text.empty() && text.find('|') == std::string::npos &&
-                          ("|" + words + "|").find("|" + text + "|") != std::string::npos;
-        return good ? std::string() : refusal(text, words);
-      },
-      "");
+Check one_of(const std::string& words) {
+  return [=](const std::string& text) {
+    const bool good = !text.empty() && text.find('|') == std::string::npos &&
+                      ("|" + words + "|").find("|" + text + "|") != std::string::npos;
+    return good ? std::string() : refusal(text, words);
+  };
 }
 
 } // namespace tilepack::cli

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "console.h"
-
-#include <CLI/CLI.hpp>
+#include "options.h"
 
 #include <functional>
 #include <span>
@@ -21,9 +20,9 @@ struct Verb {
   std::string summary; ///< one line, no full stop
   std::string example; ///< command lines that work, shown below --help
 
-  /// Declares positionals and options on `app`, and returns what runs after parsing. Values live in state
+  /// Declares positionals and options on `options`, and returns what runs after parsing. Values live in state
   /// that the returned action owns (a shared_ptr captured by both). --help and --quiet are there already.
-  Action (*declare)(CLI::App& app);
+  Action (*declare)(Options& options);
 
   std::string more = {}; ///< the way out when there are more arguments than positionals
 };

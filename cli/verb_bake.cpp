@@ -206,38 +206,36 @@ int run_bake(const BakeArguments& arguments, Console& console) {
   return 0;
 }
 
-Action declare_bake(CLI::App& app) {
+Action declare_bake(Options& options) {
   auto arguments = std::make_shared<BakeArguments>();
-  app.add_option(
-         "SAMPLE", arguments->sample,
-         "image to make tiles from, or folder of the maps of a material (rock_albedo.png, rock_normal.png …)")
-      ->type_name("");
-  app.add_option("-o,--output", arguments->folder, "folder of the pack")->type_name("DIR");
-  app.add_option("--map", arguments->maps,
-                 "a further map of the material, in register with SAMPLE; may be repeated")
-      ->type_name("ROLE=FILE")
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_option("--preset", arguments->preset,
-                 "options from a built-in preset or a JSON file; flags override it")
-      ->type_name("NAME|FILE");
-  app.add_flag("--list-presets", arguments->list_presets, "show the built-in presets and end");
-  for (const BakeField& field : bake_fields()) add_field_option(app, field, arguments->fields);
-  app.add_option("--encoding", arguments->encoding,
-                 "how color samples are encoded; as their file says unless given")
-      ->check(one_of("srgb|linear"))
-      ->type_name("srgb|linear");
-  app.add_option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
-      ->type_name("FILE");
-  app.add_option("--report-format", arguments->report_format,
-                 "of the summary or the list of presets on stdout")
-      ->check(one_of("text|json"))
-      ->type_name("text|json");
-  app.add_option("--report", arguments->report,
-                 "also write a page: tiles, cuts and sources drawn, figures, what to change")
-      ->type_name("FILE.html");
-  add_jobs_option(app, arguments->jobs);
+  options.option(
+      "SAMPLE", arguments->sample,
+      "image to make tiles from, or folder of the maps of a material (rock_albedo.png, rock_normal.png …)");
+  options.option("-o,--output", arguments->folder, "folder of the pack").value("DIR");
+  options
+      .option("--map", arguments->maps,
+              "a further map of the material, in register with SAMPLE; may be repeated")
+      .value("ROLE=FILE");
+  options
+      .option("--preset", arguments->preset,
+              "options from a built-in preset or a JSON file; flags override it")
+      .value("NAME|FILE");
+  options.flag("--list-presets", arguments->list_presets, "show the built-in presets and end");
+  for (const BakeField& field : bake_fields()) add_field_option(options, field, arguments->fields);
+  options
+      .option("--encoding", arguments->encoding,
+              "how color samples are encoded; as their file says unless given")
+      .one_of("srgb|linear");
+  options.option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
+      .value("FILE");
+  options
+      .option("--report-format", arguments->report_format, "of the summary or the list of presets on stdout")
+      .one_of("text|json");
+  options
+      .option("--report", arguments->report,
+              "also write a page: tiles, cuts and sources drawn, figures, what to change")
+      .value("FILE.html");
+  add_jobs_option(options, arguments->jobs);
   return [arguments](Console& console) { return run_bake(*arguments, console); };
 }
 

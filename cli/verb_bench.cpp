@@ -28,27 +28,27 @@ int run_bench(const BenchArguments& a, Console& console) {
   return bench_lookups_of(a.of_lookups, console);
 }
 
-Action declare_bench(CLI::App& app) {
+Action declare_bench(Options& options) {
   auto a = std::make_shared<BenchArguments>();
   LookupBenchArguments& of = a->of_lookups;
-  app.add_option("PACK", of.pack, "folder of a pack, or its pack.json; --spans can do without")
-      ->type_name("");
-  app.add_flag(
+  options.option("PACK", of.pack, "folder of a pack, or its pack.json; --spans can do without");
+  options.flag(
       "--spans", a->spans,
       "instead, the span methods of perspective views: error in pixels and texels against ns a pixel");
-  app.add_option("--map", of.map, "lookups: name of the map (default: the first)")->type_name("NAME");
-  app.add_option("--report", of.report, "also write a page with tables and plots")->type_name("FILE.html");
-  app.add_option("--format", of.format, "text (default), json, or for lookups csv")->type_name("NAME");
-  app.add_option("--rounds", of.rounds, "lookups: medians are taken over so many, 1 to 1000 (default 9)")
-      ->check(whole_number(1, 1000))
-      ->type_name("N");
-  app.add_option("--lookups", of.lookups,
-                 "places a zone and level for the errors of mips, 16 to 1000000 (default 4096)")
-      ->check(whole_number(16, 1000000))
-      ->type_name("N");
-  app.add_flag("--quick", of.quick,
+  options.option("--map", of.map, "lookups: name of the map (default: the first)").value("NAME");
+  options.option("--report", of.report, "also write a page with tables and plots").value("FILE.html");
+  options.option("--format", of.format, "text (default), json, or for lookups csv").value("NAME");
+  options.option("--rounds", of.rounds, "lookups: medians are taken over so many, 1 to 1000 (default 9)")
+      .check(whole_number(1, 1000))
+      .value("N");
+  options
+      .option("--lookups", of.lookups,
+              "places a zone and level for the errors of mips, 16 to 1000000 (default 4096)")
+      .check(whole_number(16, 1000000))
+      .value("N");
+  options.flag("--quick", of.quick,
                "one rough round of timing, for a first look; nothing is compared with OpenImageIO");
-  add_jobs_option(app, of.jobs);
+  add_jobs_option(options, of.jobs);
   return [a](Console& console) { return run_bench(*a, console); };
 }
 

@@ -71,28 +71,27 @@ int run_compare(const CompareArguments& arguments, Console& console) {
   return 0;
 }
 
-Action declare_compare(CLI::App& app) {
+Action declare_compare(Options& options) {
   auto arguments = std::make_shared<CompareArguments>();
-  app.add_option("A", arguments->a, "image, or pack (folder or pack.json)")->required()->type_name("");
-  app.add_option("B", arguments->b, "of the same kind")->required()->type_name("");
-  app.add_option("--format", arguments->format, "of the report on stdout")
-      ->check(one_of("text|json"))
-      ->type_name("text|json");
-  app.add_option("--max-difference", arguments->limits.max_difference,
-                 "alike if no value differs by more: 1/255 for integer images, plain for float")
-      ->check(number(0, 1e38))
-      ->type_name("N");
-  app.add_option("--min-psnr", arguments->limits.min_psnr, "alike from this PSNR on, in dB, -1000 to 1000")
-      ->check(number(-1000, 1000, " dB"))
-      ->type_name("DB");
-  app.add_option("--min-ssim", arguments->limits.min_ssim, "alike from this SSIM on, -1 to 1")
-      ->check(number(-1, 1))
-      ->type_name("S");
-  app.add_option("--picture", arguments->picture, "write the difference, magnified, as a PNG")
-      ->type_name("FILE.png");
-  app.add_option("--gain", arguments->gain, "how much the picture magnifies, 0.001 to 1000; 8 unless given")
-      ->check(number(0.001, 1000))
-      ->type_name("N");
+  options.option("A", arguments->a, "image, or pack (folder or pack.json)").required();
+  options.option("B", arguments->b, "of the same kind").required();
+  options.option("--format", arguments->format, "of the report on stdout").one_of("text|json");
+  options
+      .option("--max-difference", arguments->limits.max_difference,
+              "alike if no value differs by more: 1/255 for integer images, plain for float")
+      .check(number(0, 1e38))
+      .value("N");
+  options.option("--min-psnr", arguments->limits.min_psnr, "alike from this PSNR on, in dB, -1000 to 1000")
+      .check(number(-1000, 1000, " dB"))
+      .value("DB");
+  options.option("--min-ssim", arguments->limits.min_ssim, "alike from this SSIM on, -1 to 1")
+      .check(number(-1, 1))
+      .value("S");
+  options.option("--picture", arguments->picture, "write the difference, magnified, as a PNG")
+      .value("FILE.png");
+  options.option("--gain", arguments->gain, "how much the picture magnifies, 0.001 to 1000; 8 unless given")
+      .check(number(0.001, 1000))
+      .value("N");
   return [arguments](Console& console) { return run_compare(*arguments, console); };
 }
 

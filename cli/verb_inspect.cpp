@@ -108,36 +108,34 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   return 0;
 }
 
-Action declare_inspect(CLI::App& app) {
+Action declare_inspect(Options& options) {
   auto arguments = std::make_shared<InspectArguments>();
-  app.add_option("PACK", arguments->pack, "folder or pack.json")->required()->type_name("");
-  app.add_option("--format", arguments->format, "of the summary on stdout")
-      ->check(one_of("text|json"))
-      ->type_name("text|json");
-  app.add_option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
-      ->type_name("FILE.png|.svg");
-  app.add_option("--index-map", arguments->index_map, "write the tile ids of an index mapping, row by row")
-      ->type_name("FILE.json");
-  app.add_option("--corner-picture", arguments->corner_picture, "draw the corner pack likewise")
-      ->type_name("FILE.png|.svg");
-  app.add_option("--preview", arguments->preview,
-                 "draw a piece of the virtual texture with its colors and ids")
-      ->type_name("FILE.png|.svg");
-  app.add_option("--tiles", arguments->tiles, "tiles a side of the preview, 1 to 64; 8 unless given")
-      ->check(whole_number(1, 64))
-      ->type_name("N");
-  app.add_option("--map", arguments->map, "the map drawn and measured; the first unless given")
-      ->type_name("NAME");
-  app.add_option("--level", arguments->level,
-                 "the level drawn; the finest that fits 4096 pixels unless given")
-      ->check(whole_number(0, 30))
-      ->type_name("L");
-  app.add_option("--worst", arguments->worst,
-                 "how many of the worst borders are listed, 0 to 1000; 3 unless given")
-      ->check(whole_number(0, 1000))
-      ->type_name("N");
-  app.add_flag("--bare", arguments->bare, "draw without colors and ids");
-  app.add_flag("--mapping", arguments->mapping,
+  options.option("PACK", arguments->pack, "folder or pack.json").required();
+  options.option("--format", arguments->format, "of the summary on stdout").one_of("text|json");
+  options.option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
+      .value("FILE.png|.svg");
+  options.option("--index-map", arguments->index_map, "write the tile ids of an index mapping, row by row")
+      .value("FILE.json");
+  options.option("--corner-picture", arguments->corner_picture, "draw the corner pack likewise")
+      .value("FILE.png|.svg");
+  options
+      .option("--preview", arguments->preview, "draw a piece of the virtual texture with its colors and ids")
+      .value("FILE.png|.svg");
+  options.option("--tiles", arguments->tiles, "tiles a side of the preview, 1 to 64; 8 unless given")
+      .check(whole_number(1, 64))
+      .value("N");
+  options.option("--map", arguments->map, "the map drawn and measured; the first unless given").value("NAME");
+  options
+      .option("--level", arguments->level, "the level drawn; the finest that fits 4096 pixels unless given")
+      .check(whole_number(0, 30))
+      .value("L");
+  options
+      .option("--worst", arguments->worst,
+              "how many of the worst borders are listed, 0 to 1000; 3 unless given")
+      .check(whole_number(0, 1000))
+      .value("N");
+  options.flag("--bare", arguments->bare, "draw without colors and ids");
+  options.flag("--mapping", arguments->mapping,
                "statistics of the mapping instead, beside tables of 8 to 4096 entries; --picture draws them");
   return [arguments](Console& console) {
     return arguments->mapping ? run_inspect_mapping(*arguments, console) : run_inspect(*arguments, console);

@@ -146,27 +146,26 @@ int run_layouts(const LayoutsArguments& arguments, Console& console) {
   return 0;
 }
 
-Action declare_layouts(CLI::App& app) {
+Action declare_layouts(Options& options) {
   auto arguments = std::make_shared<LayoutsArguments>();
-  app.add_option("--tiles", arguments->tiles, "advice for this many tiles, 1 to 65535")
-      ->check(whole_number(1, max_rotated_tiles - 1))
-      ->type_name("N");
-  app.add_option("--up-to", arguments->up_to, "largest tile count of the table, 1 to 4096")
-      ->check(whole_number(1, 4096))
-      ->type_name("N");
-  app.add_option("--tile-size", arguments->tile_side, "side of a tile in texels, 1 to 4096")
-      ->check(whole_number(1, 4096))
-      ->type_name("N");
-  app.add_option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side")
-      ->check(whole_number(0, 4096, ", and at most the tile's side"))
-      ->type_name("N");
-  app.add_option("--sample", arguments->sample,
-                 "with --tiles: measure what turning loses on windows of this image")
-      ->type_name("IMAGE");
-  app.add_flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
-  app.add_option("--format", arguments->format, "of the table")
-      ->check(one_of("text|json"))
-      ->type_name("text|json");
+  options.option("--tiles", arguments->tiles, "advice for this many tiles, 1 to 65535")
+      .check(whole_number(1, max_rotated_tiles - 1))
+      .value("N");
+  options.option("--up-to", arguments->up_to, "largest tile count of the table, 1 to 4096")
+      .check(whole_number(1, 4096))
+      .value("N");
+  options.option("--tile-size", arguments->tile_side, "side of a tile in texels, 1 to 4096")
+      .check(whole_number(1, 4096))
+      .value("N");
+  options.option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side")
+      .check(whole_number(0, 4096, ", and at most the tile's side"))
+      .value("N");
+  options
+      .option("--sample", arguments->sample,
+              "with --tiles: measure what turning loses on windows of this image")
+      .value("IMAGE");
+  options.flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
+  options.option("--format", arguments->format, "of the table").one_of("text|json");
   return [arguments](Console& console) { return run_layouts(*arguments, console); };
 }
 

@@ -116,31 +116,30 @@ int run_pack(const PackArguments& arguments, Console& console) {
   return 0;
 }
 
-Action declare_pack(CLI::App& app) {
+Action declare_pack(Options& options) {
   auto arguments = std::make_shared<PackArguments>();
-  app.add_option("TILE", arguments->tiles, "images of the tiles, all of one size")->type_name("")->required();
-  app.add_option("-o,--output", arguments->folder, "folder of the pack")->type_name("DIR")->required();
-  app.add_option(
-         "--colors", arguments->colors,
-         "JSON list of the tiles' colors, one entry a TILE: {\"north\": 0, \"east\": 0, \"south\": 0, "
-         "\"west\": 0} or {\"nw\": 0, \"ne\": 0, \"sw\": 0, \"se\": 0}")
-      ->type_name("FILE")
-      ->required();
-  app.add_option("--name", arguments->name, "of the map in the pack")->type_name("NAME");
-  app.add_option("--role", arguments->role, "what the values mean")
-      ->check(one_of("color|normal|roughness|height|data"))
-      ->type_name("ROLE");
-  app.add_option("--tolerance", arguments->tolerance,
-                 "by how much borders of one color may differ, in parts of full scale, 0 to 1")
-      ->check(number(0, 1))
-      ->type_name("X");
+  options.option("TILE", arguments->tiles, "images of the tiles, all of one size").required();
+  options.option("-o,--output", arguments->folder, "folder of the pack").value("DIR").required();
+  options
+      .option("--colors", arguments->colors,
+              "JSON list of the tiles' colors, one entry a TILE: {\"north\": 0, \"east\": 0, \"south\": 0, "
+              "\"west\": 0} or {\"nw\": 0, \"ne\": 0, \"sw\": 0, \"se\": 0}")
+      .value("FILE")
+      .required();
+  options.option("--name", arguments->name, "of the map in the pack").value("NAME");
+  options.option("--role", arguments->role, "what the values mean")
+      .one_of("color|normal|roughness|height|data")
+      .value("ROLE");
+  options
+      .option("--tolerance", arguments->tolerance,
+              "by how much borders of one color may differ, in parts of full scale, 0 to 1")
+      .check(number(0, 1))
+      .value("X");
   for (const BakeField& field : bake_fields()) {
-    if (is_packing_field(field.name)) add_field_option(app, field, arguments->fields);
+    if (is_packing_field(field.name)) add_field_option(options, field, arguments->fields);
   }
-  app.add_option("--report-format", arguments->report_format, "of the summary on stdout")
-      ->check(one_of("text|json"))
-      ->type_name("text|json");
-  add_jobs_option(app, arguments->jobs);
+  options.option("--report-format", arguments->report_format, "of the summary on stdout").one_of("text|json");
+  add_jobs_option(options, arguments->jobs);
   return [arguments](Console& console) { return run_pack(*arguments, console); };
 }
 

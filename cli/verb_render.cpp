@@ -5,9 +5,9 @@
 #include "verb.h"
 
 #include "tilepack/image/image_file.h"
+#include "tilepack/mip/level_size.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/sampler/render.h"
-#include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
 
@@ -170,47 +170,54 @@ int run_render(const RenderArguments& arguments, Console& console) {
   return 0;
 }
 
-Action declare_render(CLI::App& app) {
+Action declare_render(Options& options) {
   auto a = std::make_shared<RenderArguments>();
-  app.add_option("PACK", a->pack, "folder of a pack, or its pack.json")->required()->type_name("");
-  app.add_option("-o,--output", a->output,
-                 "picture to write, .png or .exr; the depth of the map is kept if the format has it")
-      ->required()
-      ->type_name("FILE");
-  app.add_option("--map", a->map, "name of the map (default: the first)")->type_name("NAME");
-  app.add_option(
-         "--rect", a->rect,
-         "window in texels of the level, anywhere, also beyond the border (default: the first 8 x 8 tiles)")
-      ->type_name("X,Y,W,H");
-  app.add_option("--level", a->level, "mip level, 0 the finest (default 0)")
-      ->check(whole_number(0, 30))
-      ->type_name("L");
-  app.add_option(
-         "--filter", a->filter,
-         "nearest, bilinear, trilinear, which reads the level that fits the scale (default), or elliptical, "
-         "the mean over what a pixel covers; for camera views trilinear, anisotropic or elliptical")
-      ->type_name("NAME");
-  app.add_option("--border", a->border,
-                 "what lies beyond the virtual texture: wrap (default), clamp, which repeats its outermost "
-                 "texels, or mirror")
-      ->type_name("NAME");
-  app.add_option("--scale", a->scale,
-                 "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")
-      ->check(positive_number(max_render_side, " (1: a pixel a texel)"))
-      ->type_name("S");
-  app.add_option(
-         "--corner-width", a->corner_width,
-         "how far round tile corners a corner pack is blended in, in texels of the level, 0 (not at all) "
-         "to 4096, cut to what the pack allows (default 4)")
-      ->check(number(0, 4096))
-      ->type_name("W");
-  app.add_option("--encoding", a->encoding,
-                 "srgb or linear (default: that of the map; in EXR linear, in PNG of float color srgb)")
-      ->type_name("NAME");
-  add_jobs_option(app, a->jobs);
-  add_camera_options(app, a->view);
-  return [a, &app](Console& console) {
-    (a->view.camera ? refuse_window_options : refuse_camera_options)(app);
+  options.option("PACK", a->pack, "folder of a pack, or its pack.json").required();
+  options
+      .option("-o,--output", a->output,
+              "picture to write, .png or .exr; the depth of the map is kept if the format has it")
+      .required()
+      .value("FILE");
+  options.option("--map", a->map, "name of the map (default: the first)").value("NAME");
+  options
+      .option(
+          "--rect", a->rect,
+          "window in texels of the level, anywhere, also beyond the border (default: the first 8 x 8 tiles)")
+      .value("X,Y,W,H");
+  options.option("--level", a->level, "mip level, 0 the finest (default 0)")
+      .check(whole_number(0, 30))
+      .value("L");
+  options
+      .option(
+          "--filter", a->filter,
+          "nearest, bilinear, trilinear, which reads the level that fits the scale (default), or elliptical, "
+          "the mean over what a pixel covers; for camera views trilinear, anisotropic or elliptical")
+      .value("NAME");
+  options
+      .option("--border", a->border,
+              "what lies beyond the virtual texture: wrap (default), clamp, which repeats its outermost "
+              "texels, or mirror")
+      .value("NAME");
+  options
+      .option("--scale", a->scale,
+              "pixels a texel (default 1): pixel i samples X + (i + 0.5) / S; at 1, the texels themselves")
+      .check(positive_number(max_render_side, " (1: a pixel a texel)"))
+      .value("S");
+  options
+      .option(
+          "--corner-width", a->corner_width,
+          "how far round tile corners a corner pack is blended in, in texels of the level, 0 (not at all) "
+          "to 4096, cut to what the pack allows (default 4)")
+      .check(number(0, 4096))
+      .value("W");
+  options
+      .option("--encoding", a->encoding,
+              "srgb or linear (default: that of the map; in EXR linear, in PNG of float color srgb)")
+      .value("NAME");
+  add_jobs_option(options, a->jobs);
+  add_camera_options(options, a->view);
+  return [a, &options](Console& console) {
+    (a->view.camera ? refuse_window_options : refuse_camera_options)(options);
     return run_render(*a, console);
   };
 }

@@ -56,21 +56,19 @@ int run_validate(const ValidateArguments& arguments, Console& console) {
   return 0;
 }
 
-Action declare_validate(CLI::App& app) {
+Action declare_validate(Options& options) {
   auto arguments = std::make_shared<ValidateArguments>();
-  app.add_option("PACK", arguments->pack, "folder or pack.json")->type_name("");
-  app.add_option("--format", arguments->format, "of the report on stdout")
-      ->check(one_of("text|json|csv"))
-      ->type_name("text|json|csv");
-  app.add_flag(
+  options.option("PACK", arguments->pack, "folder or pack.json");
+  options.option("--format", arguments->format, "of the report on stdout").one_of("text|json|csv");
+  options.flag(
       "--against-reference", arguments->against_reference,
       "also hold bilinear lookups against the virtual texture's true mips, level by level: inside tiles, "
       "across edges, at corners");
-  app.add_option("--lookups", arguments->lookups, "places a zone and level, 16 to 1000000 (default 4096)")
-      ->check(whole_number(16, 1000000))
-      ->type_name("N");
-  app.add_flag("--list-rules", arguments->list_rules, "show every rule with its number and end");
-  add_jobs_option(app, arguments->jobs);
+  options.option("--lookups", arguments->lookups, "places a zone and level, 16 to 1000000 (default 4096)")
+      .check(whole_number(16, 1000000))
+      .value("N");
+  options.flag("--list-rules", arguments->list_rules, "show every rule with its number and end");
+  add_jobs_option(options, arguments->jobs);
   return [arguments](Console& console) { return run_validate(*arguments, console); };
 }
 

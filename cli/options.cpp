@@ -1,0 +1,221 @@
+#include "options.h"
+
+#include "tilepack/error/error.h"
+#include "tilepack/error/nearest_name.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+#include <utility>
+
+// CLI11 takes long to compile: it is included here alone.
+
+namespace tilepack::cli {
+namespace {
+
+constexpr std::size_t page_width = 100;
+constexpr std::size_t description_column = 34;
+
+// CLI11's help, with descriptions wrapped to the page, flags shown by their names alone, and options that must
+// be given marked "(required)"; which positionals must be, the line of usage says.
+class HelpFormat : public CLI::Formatter {
+public:
+  HelpFormat() { column_width(description_column); }
+
+  // CLI11 writes "--no-flag{false}" for what a flag's other name stands for; the name says it.
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    std::string name = CLI::Formatter::make_option_name(option, is_positional);
+    const std::string value = "{false}";
+    for (std::size_t at = name.find(value); at != std::string::npos; at = name.find(value))
+      name.erase(at, value.size());
+    return name;
+  }
+
+  // CLI11 writes REQUIRED, also beside positionals.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_expected_max() == 0) return "";
+    std::string text;
+    if (!option->get_type_name().empty()) text += " " + option->get_type_name();
+    if (option->get_positional() && option->get_expected_max() > 1) text += " ...";
+    if (option->get_required() && !option->get_positional()) text += " (required)";
+    return text;
+  }
+
+  // CLI11 indents what follows a line break.
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::size_t width = page_width - get_column_width();
+    std::istringstream words(CLI::Formatter::make_option_desc(option));
+    std::string text;
+    std::size_t column = 0;
+    for (std::string word; words >> word;) {
+      if (column > 0 && column + 1 + word.size() > width) {
+        text += '\n';
+        column = 0;
+      } else if (column > 0) {
+        text += ' ';
+        ++column;
+      }
+      text += word;
+      column += word.size();
+    }
+    return text;
+  }
+};
+
+} // namespace
+
+class OptionParser {
+public:
+  explicit OptionParser(const CommandText& text)
+      : app(text.summary + ".", text.name), more(text.more),
+        common_group(app.option_defaults()->get_group()) {
+    app.footer("\nExample:\n" + text.example);
+    app.formatter(std::make_shared<HelpFormat>());
+    app.option_defaults()->take_last(); // what collects says take_all itself
+  }
+
+  template <typename Value>
+  int add(const std::string& names, Value& variable, const std::string& help) {
+    return keep(app.add_option(names, variable, help));
+  }
+
+  int keep(CLI::Option* option) {
+    if (option->get_positional()) option->type_name("");
+    declared.push_back(option);
+    return static_cast<int>(declared.size()) - 1;
+  }
+
+  CLI::Option& at(int index) { return *declared[static_cast<std::size_t>(index)]; }
+
+  // CLI11 reports a missing argument before an unknown option; but what it could not place tells more, since
+  // a mistyped option is what leaves arguments out of place.
+  std::string explained(const CLI::ParseError& error) const {
+    const std::vector<std::string> extras = app.remaining();
+    const auto flag = std::find_if(extras.begin(), extras.end(), [](const std::string& argument) {
+      return argument.size() > 1 && argument.front() == '-';
+    });
+    if (flag != extras.end()) {
+      std::vector<std::string> known;
+      for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+      const std::string name = flag->substr(0, flag->find('='));
+      const std::string nearest = nearest_name(name, known);
+      return fmt::format("unknown option '{}'{}", name,
+                         nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+    }
+    if (!extras.empty()) return fmt::format("unexpected argument '{}'{}", extras.front(), more);
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+      const std::string what = error.what(); // "--report: 1 required FILE.html missing"
+      const std::string name = what.substr(0, what.find(':'));
+      if (const CLI::Option* option = app.get_option_no_throw(name))
+        return fmt::format("{}: its value is missing; write {} {}", name, name, option->get_type_name());
+    }
+    return error.what();
+  }
+
+  CLI::App app;
+  std::string more;
+  std::string common_group;
+
+private:
+  std::vector<CLI::Option*> declared;
+};
+
+Option& Option::value(const std::string& name) {
+  parser->at(index).type_name(name);
+  return *this;
+}
+
+Option& Option::check(Check check) {
+  parser->at(index).check(
+      CLI::Validator([allowed = std::move(check)](const std::string& text) { return allowed(text); }, ""));
+  return *this;
+}
+
+Option& Option::one_of(const std::string& words) {
+  return check(cli::one_of(words)).value(words);
+}
+
+Option& Option::required() {
+  parser->at(index).required();
+  return *this;
+}
+
+Options::Options(const CommandText& text) : parser(std::make_unique<OptionParser>(text)) {}
+
+Options::~Options() = default;
+
+Option Options::option(const std::string& names, std::string& variable, const std::string& help) {
+  return {*parser, parser->add(names, variable, help)};
+}
+
+Option Options::option(const std::string& names, int& variable, const std::string& help) {
+  return {*parser, parser->add(names, variable, help)};
+}
+
+Option Options::option(const std::string& names, double& variable, const std::string& help) {
+  return {*parser, parser->add(names, variable, help)};
+}
+
+Option Options::option(const std::string& names, std::optional<std::string>& variable,
+                       const std::string& help) {
+  return {*parser, parser->add(names, variable, help)};
+}
+
+Option Options::option(const std::string& names, std::optional<int>& variable, const std::string& help) {
+  return {*parser, parser->add(names, variable, help)};
+}
+
+Option Options::option(const std::string& names, std::optional<double>& variable, const std::string& help) {
+  return {*parser, parser->add(names, variable, help)};
+}
+
+Option Options::option(const std::string& names, std::vector<std::string>& variable,
+                       const std::string& help) {
+  const int index = parser->add(names, variable, help);
+  CLI::Option& option = parser->at(index);
+  if (!option.get_positional()) option.expected(1)->take_all()->allow_extra_args(false);
+  return {*parser, index};
+}
+
+Option Options::option(const std::string& names, std::function<void(const std::string&)> taken,
+                       const std::string& help) {
+  return {*parser, parser->keep(parser->app.add_option_function<std::string>(names, std::move(taken), help))};
+}
+
+void Options::flag(const std::string& names, bool& variable, const std::string& help) {
+  parser->app.add_flag(names, variable, help);
+}
+
+void Options::switch_flag(const std::string& name, std::function<void(bool)> taken, const std::string& help) {
+  parser->app.add_flag_function(
+      fmt::format("--{0},!--no-{0}", name), [taken](std::int64_t count) { taken(count > 0); }, help);
+}
+
+void Options::group(const std::string& heading) {
+  parser->app.option_defaults()->group(heading.empty() ? parser->common_group : heading);
+}
+
+bool Options::parse(const std::vector<std::string>& arguments) {
+  try {
+    parser->app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend())); // last first
+  } catch (const CLI::CallForHelp&) {
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw Error(ErrorKind::usage, "", parser->explained(error));
+  }
+  return true;
+}
+
+bool Options::given(const std::string& name) const {
+  return parser->app.count(name) > 0;
+}
+
+std::string Options::help() const {
+  return parser->app.help();
+}
+
+} // namespace tilepack::cli
