@@ -1,27 +1,12 @@
 #pragma once
 
 #include "tilepack/image/texel_memory.h"
+#include "tilepack/numeric/rect.h"
 
 #include <cstddef>
 #include <span>
 
 namespace tilepack {
-
-/// A width and a height, in texels or in tiles as the context says.
-struct Size {
-  int width = 0;
-  int height = 0;
-  bool operator==(const Size&) const = default;
-};
-
-/// A rectangle of texels: x, y of its north-west texel, then its size.
-struct Rect {
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
-  bool operator==(const Rect&) const = default;
-};
 
 /// An image as every stage passes it: floats, interleaved channels, row 0 on top, x east, y south; the centre
 /// of texel (x, y) is at (x + 0.5, y + 0.5).
