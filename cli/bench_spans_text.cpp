@@ -1,14 +1,14 @@
 #include "bench_spans.h"
 
+#include "tilepack/json/json_value.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 namespace tilepack::cli {
 namespace {
 
-using nlohmann::ordered_json;
 
 std::string short_number(double value) {
   if (!std::isfinite(value)) return "broken";
@@ -20,12 +20,12 @@ std::string pixels_text(const HardResult& result) {
 }
 
 // JSON has no infinity.
-ordered_json number(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+JsonValue number(double value) {
+  return JsonValue(value);
 }
 
-ordered_json numbers(const std::vector<double>& values) {
-  ordered_json list = ordered_json::array();
+JsonValue numbers(const std::vector<double>& values) {
+  JsonValue list = JsonValue::array();
   for (double value : values) list.push_back(number(value));
   return list;
 }
@@ -40,8 +40,8 @@ std::string psnr_text(const ViewFigures& view) {
   return view.psnr ? fmt::format("{:.1f}", *view.psnr) : "equal";
 }
 
-ordered_json hard_json(const std::vector<HardResult>& results) {
-  ordered_json list = ordered_json::array();
+JsonValue hard_json(const std::vector<HardResult>& results) {
+  JsonValue list = JsonValue::array();
   for (std::size_t i = 0; i < results.size(); ++i) {
     list.push_back({{"method", std::string(name_of(all_contestants[i]))},
                     {"pixels", number(results[i].pixels)},
@@ -94,11 +94,11 @@ std::string spans_text(const SpanBench& bench) {
 }
 
 std::string spans_json(const SpanBench& bench) {
-  ordered_json json;
+  JsonValue json;
   json["target"] = bench.target;
   const auto cases = span_cases();
   for (const SpanFigures& f : bench.methods) {
-    ordered_json errors = ordered_json::array();
+    JsonValue errors = JsonValue::array();
     for (std::size_t i = 0; i < f.errors.size(); ++i) {
       const SpanError& e = f.errors[i];
       errors.push_back({{"case", cases[i].name},
@@ -128,26 +128,25 @@ std::string spans_json(const SpanBench& bench) {
                               {"rounding_pixels", numbers(curve.rounding)},
                               {"bound_pixels", numbers(curve.bound)}});
   }
-  ordered_json views = ordered_json::array();
+  JsonValue views = JsonValue::array();
   for (const ViewFigures& view : bench.views) {
     views.push_back({{"method", std::string(name_of(view.options.method))},
                      {"reseed", view.options.reseed},
                      {"precision", std::string(name_of(view.precision))},
                      {"wanted_error", view.wanted_error},
-                     {"ns_stepping", view.stepping > 0 ? ordered_json(view.stepping) : ordered_json(nullptr)},
+                     {"ns_stepping", view.stepping > 0 ? JsonValue(view.stepping) : JsonValue(nullptr)},
                      {"largest_pixels", view.shift.largest_pixels},
                      {"largest_texels", view.shift.largest_texels},
                      {"largest_mip_texels", view.shift.largest_mip_texels},
-                     {"psnr", view.psnr ? ordered_json(*view.psnr) : ordered_json(nullptr)}});
+                     {"psnr", view.psnr}});
   }
-  json["view"] = {
-      {"size", {bench.view_size.width, bench.view_size.height}},
-      {"pixels", bench.view_pixels},
-      {"ns_set_up", bench.set_up},
-      {"ns_texturing", bench.texturing > 0 ? ordered_json(bench.texturing) : ordered_json(nullptr)},
-      {"methods", views}};
+  json["view"] = {{"size", JsonValue::array({bench.view_size.width, bench.view_size.height})},
+                  {"pixels", bench.view_pixels},
+                  {"ns_set_up", bench.set_up},
+                  {"ns_texturing", bench.texturing > 0 ? JsonValue(bench.texturing) : JsonValue(nullptr)},
+                  {"methods", views}};
   json["advice"] = bench.advice;
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 } // namespace tilepack::cli

@@ -3,9 +3,9 @@
 
 #include "tilepack/bake/round_trip.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/json/json_value.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <memory>
 #include <string>
@@ -13,8 +13,6 @@
 
 namespace tilepack::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct LayoutsArguments {
   std::optional<int> tiles;
@@ -51,7 +49,7 @@ double padding(int tiles, int tile_side) {
   return share(padded - std::int64_t{tiles} * tile_side * tile_side, padded);
 }
 
-Json plan_json(const LayoutCandidate& plan) {
+JsonValue plan_json(const LayoutCandidate& plan) {
   const std::int64_t texels = std::int64_t{plan.size.width} * plan.size.height;
   return {{"scheme", formula(plan.scheme)},
           {"n", plan.scheme.n},
@@ -59,7 +57,7 @@ Json plan_json(const LayoutCandidate& plan) {
           {"squares", plan.scheme.squares},
           {"nested", nested_counts(plan.scheme)},
           {"angle", angle_in_degrees(plan.scheme)},
-          {"size", {plan.size.width, plan.size.height}},
+          {"size", JsonValue::array({plan.size.width, plan.size.height})},
           {"copied", plan.copied},
           {"wasted_texels", plan.wasted},
           {"wasted_percent", share(plan.wasted, texels)}};
@@ -72,12 +70,12 @@ std::vector<RoundTrip> losses(const LayoutCandidate& plan, const LayoutsArgument
   return round_trips(sample, plan, arguments.tile_side);
 }
 
-Json row_json(int tiles, const LayoutsArguments& arguments) {
-  Json plans = Json::array();
+JsonValue row_json(int tiles, const LayoutsArguments& arguments) {
+  JsonValue plans = JsonValue::array();
   for (const LayoutCandidate& plan : layout_plans(request_for(tiles, arguments))) {
-    Json json = plan_json(plan);
+    JsonValue json = plan_json(plan);
     for (const RoundTrip& trip : losses(plan, arguments))
-      json["psnr"][std::string(name_of(trip.filter))] = trip.psnr ? Json(*trip.psnr) : Json(nullptr);
+      json["psnr"][std::string(name_of(trip.filter))] = trip.psnr;
     plans.push_back(std::move(json));
   }
   return {{"tiles", tiles},
@@ -129,7 +127,7 @@ int run_layouts(const LayoutsArguments& arguments, Console& console) {
     throw Error(ErrorKind::usage, "--sample", "goes with --tiles: name the count that is to be measured");
   const bool json = arguments.format == "json";
   if (arguments.tiles) {
-    console.print(json ? row_json(*arguments.tiles, arguments).dump(2) + "\n"
+    console.print(json ? json_text(row_json(*arguments.tiles, arguments))
                        : advice_text(*arguments.tiles, arguments));
     return 0;
   }
@@ -140,9 +138,9 @@ int run_layouts(const LayoutsArguments& arguments, Console& console) {
     console.print(table_text(counts, arguments));
     return 0;
   }
-  Json rows = Json::array();
+  JsonValue rows = JsonValue::array();
   for (const int tiles : counts) rows.push_back(row_json(tiles, arguments));
-  console.print(Json{{"tile_size", arguments.tile_side}, {"layouts", std::move(rows)}}.dump(2) + "\n");
+  console.print(json_text({{"tile_size", arguments.tile_side}, {"layouts", std::move(rows)}}));
   return 0;
 }
 

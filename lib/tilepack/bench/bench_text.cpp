@@ -1,7 +1,7 @@
 #include "tilepack/bench/bench.h"
+#include "tilepack/json/json_value.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace tilepack {
 namespace {
@@ -51,8 +51,7 @@ std::string bench_text(const Bench& bench) {
 }
 
 std::string bench_json(const Bench& bench) {
-  using Json = nlohmann::ordered_json;
-  Json costs = Json::array();
+  JsonValue costs = JsonValue::array();
   for (const LookupCost& c : bench.lookups.costs)
     costs.push_back({{"sampler", c.sampler},
                      {"target", c.target},
@@ -63,50 +62,46 @@ std::string bench_json(const Bench& bench) {
                      {"nanoseconds", c.nanoseconds},
                      {"off_reference", c.off_reference},
                      {"rms_truth", c.rms_truth}});
-  Json ratios = Json::array();
+  JsonValue ratios = JsonValue::array();
   for (const BenchRatio& r : all_ratios(bench))
-    ratios.push_back({{"name", r.name},
-                      {"value", r.value},
-                      {"at_least", r.at_least ? Json(*r.at_least) : Json(nullptr)},
-                      {"met", r.met()}});
-  Json sizes = Json::array();
+    ratios.push_back({{"name", r.name}, {"value", r.value}, {"at_least", r.at_least}, {"met", r.met()}});
+  JsonValue sizes = JsonValue::array();
   for (const SizeCost& s : bench.lookups.sizes)
-    sizes.push_back(
-        {{"tiles", s.tiles}, {"tiled", s.tiled}, {"stored", s.stored ? Json(*s.stored) : Json(nullptr)}});
-  Json coordinates = Json::array();
+    sizes.push_back({{"tiles", s.tiles}, {"tiled", s.tiled}, {"stored", s.stored}});
+  JsonValue coordinates = JsonValue::array();
   for (const CoordinateError& e : bench.coordinates)
     coordinates.push_back({{"log2_texels", e.log2_texels},
                            {"float", e.as_float},
                            {"double", e.as_double},
                            {"tile_and_float", e.as_tile_and_float}});
-  Json summaries = Json::array();
+  JsonValue summaries = JsonValue::array();
   for (const MipSummary& m : mip_summaries(bench))
     summaries.push_back({{"mips", m.mips},
                          {"interior", m.interior},
                          {"border", m.border},
                          {"jump", m.jump},
                          {"together", m.together}});
-  Json hard = Json::array();
+  JsonValue hard = JsonValue::array();
   for (const HardLookup& c : bench.stress_lookups)
     hard.push_back({{"input", c.input},
                     {"promise", c.promise},
                     {"reference", c.reference},
-                    {"fast", c.fast ? Json(*c.fast) : Json(nullptr)},
+                    {"fast", c.fast},
                     {"kept", c.kept()}});
-  const Json json = {{"pack", bench.pack},
-                     {"map", bench.map},
-                     {"target", bench.target},
-                     {"threads", bench.lookups.threads},
-                     {"memory_gigabytes_a_second", bench.lookups.memory_bandwidth},
-                     {"advice", advice(bench)},
-                     {"lookups", std::move(costs)},
-                     {"ratios", std::move(ratios)},
-                     {"sizes", std::move(sizes)},
-                     {"coordinates", std::move(coordinates)},
-                     {"hard_lookups", std::move(hard)},
-                     {"mips_in_short", std::move(summaries)},
-                     {"mips", Json::parse(reference_errors_json(bench.mips))}};
-  return json.dump(2) + '\n';
+  const JsonValue json = {{"pack", bench.pack},
+                          {"map", bench.map},
+                          {"target", bench.target},
+                          {"threads", bench.lookups.threads},
+                          {"memory_gigabytes_a_second", bench.lookups.memory_bandwidth},
+                          {"advice", advice(bench)},
+                          {"lookups", std::move(costs)},
+                          {"ratios", std::move(ratios)},
+                          {"sizes", std::move(sizes)},
+                          {"coordinates", std::move(coordinates)},
+                          {"hard_lookups", std::move(hard)},
+                          {"mips_in_short", std::move(summaries)},
+                          {"mips", reference_errors_value(bench.mips)}};
+  return json_text(json);
 }
 
 std::string bench_csv(const Bench& bench) {

@@ -1,19 +1,13 @@
 #include "tilepack/check/check_report.h"
 
+#include "tilepack/json/json_value.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <map>
 
 namespace tilepack {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// A name or value from a broken file may hold any bytes; the report stays valid UTF-8.
-std::string dumped(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
 
 constexpr int shown_of_a_rule = 8; // a broken set breaks a rule a hundred times, and eight tell the story
 
@@ -57,7 +51,7 @@ std::string report_text(const Report& report) {
 
 std::string report_json(const Report& report) {
   const IssueCounts counts = count(report.issues);
-  Json issues = Json::array();
+  JsonValue issues = JsonValue::array();
   for (const Issue& issue : report.issues) {
     const RuleText& rule = text_of(issue.rule);
     issues.push_back({{"rule", code_of(issue.rule)},
@@ -69,7 +63,7 @@ std::string report_json(const Report& report) {
                       {"effect", rule.why},
                       {"remedy", rule.remedy}});
   }
-  return dumped(
+  return json_text(
       {{"pack", report.subject},
        {"passed", passed(report)},
        {"counts", {{"errors", counts.errors}, {"warnings", counts.warnings}, {"notes", counts.notes}}},
@@ -86,14 +80,14 @@ std::string rules_text() {
 }
 
 std::string rules_json() {
-  Json list = Json::array();
+  JsonValue list = JsonValue::array();
   for (const RuleText& rule : rules())
     list.push_back({{"rule", code_of(rule.rule)},
                     {"severity", name_of(rule.severity)},
                     {"summary", rule.summary},
                     {"effect", rule.why},
                     {"remedy", rule.remedy}});
-  return dumped({{"rules", std::move(list)}});
+  return json_text({{"rules", std::move(list)}});
 }
 
 } // namespace tilepack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
+#include "tilepack/json/json_value.h"
 #include "tilepack/pack/pack.h"
 
 #include <cstdint>
@@ -58,6 +59,7 @@ std::vector<ReferenceErrors> against_reference(const Pack& pack, int lookups, st
 /// A table for people; one line a level and zone, comma separated, with a header; and JSON, an array.
 std::string reference_errors_text(const std::vector<ReferenceErrors>& errors);
 std::string reference_errors_csv(const std::vector<ReferenceErrors>& errors);
+JsonValue reference_errors_value(const std::vector<ReferenceErrors>& errors);
 std::string reference_errors_json(const std::vector<ReferenceErrors>& errors);
 
 } // namespace tilepack

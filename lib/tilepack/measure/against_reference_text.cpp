@@ -1,7 +1,6 @@
 #include "tilepack/measure/against_reference.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace tilepack {
 namespace {
@@ -49,17 +48,16 @@ std::string reference_errors_csv(const std::vector<ReferenceErrors>& errors) {
   return text;
 }
 
-std::string reference_errors_json(const std::vector<ReferenceErrors>& errors) {
-  using Json = nlohmann::ordered_json;
-  Json list = Json::array();
+JsonValue reference_errors_value(const std::vector<ReferenceErrors>& errors) {
+  JsonValue list = JsonValue::array();
   for (const ReferenceErrors& map : errors) {
-    Json levels = Json::array();
+    JsonValue levels = JsonValue::array();
     for (const LevelError& level : map.levels) {
-      Json zones = Json::array();
+      JsonValue zones = JsonValue::array();
       for (const ZoneError& zone : level.zones)
         zones.push_back({{"zone", name_of(zone.zone)},
                          {"lookups", zone.lookups},
-                         {"psnr", zone.psnr ? Json(*zone.psnr) : Json(nullptr)},
+                         {"psnr", zone.psnr},
                          {"mean", zone.mean},
                          {"rms", zone.rms},
                          {"largest", zone.largest},
@@ -72,7 +70,11 @@ std::string reference_errors_json(const std::vector<ReferenceErrors>& errors) {
     list.push_back(
         {{"map", map.map}, {"mips", map.mips}, {"guard", map.guard}, {"levels", std::move(levels)}});
   }
-  return list.dump(2) + '\n';
+  return list;
+}
+
+std::string reference_errors_json(const std::vector<ReferenceErrors>& errors) {
+  return json_text(reference_errors_value(errors));
 }
 
 } // namespace tilepack

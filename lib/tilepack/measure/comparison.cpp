@@ -1,14 +1,13 @@
 #include "tilepack/measure/comparison.h"
 
+#include "tilepack/json/json_value.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace tilepack {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 ValueRange range_of(Depth depth) {
   return depth == Depth::u8 || depth == Depth::u16 ? ValueRange::unit : ValueRange::unbounded;
@@ -105,8 +104,8 @@ std::string part_text(const ComparedPart& part) {
   return text;
 }
 
-Json part_json(const ComparedPart& part, const CompareLimits& limits) {
-  Json json{{"name", part.name}, {"within", keeps(part, limits)}};
+JsonValue part_json(const ComparedPart& part, const CompareLimits& limits) {
+  JsonValue json{{"name", part.name}, {"within", keeps(part, limits)}};
   if (!part.figures) {
     json["mismatch"] = part.mismatch;
     return json;
@@ -115,7 +114,7 @@ Json part_json(const ComparedPart& part, const CompareLimits& limits) {
   json["equal"] = d.equal;
   json["unit"] = unit_of(part.range);
   json["peak"] = d.peak;
-  json["psnr"] = d.psnr ? Json(*d.psnr) : Json(nullptr);
+  json["psnr"] = d.psnr;
   json["ssim"] = d.ssim;
   json["largest"] = {
       {"difference", d.largest}, {"x", d.largest_x}, {"y", d.largest_y}, {"channel", d.largest_channel}};
@@ -188,12 +187,12 @@ std::string comparison_text(const Comparison& comparison, const CompareLimits& l
 }
 
 std::string comparison_json(const Comparison& comparison, const CompareLimits& limits) {
-  Json parts = Json::array();
+  JsonValue parts = JsonValue::array();
   for (const ComparedPart& part : comparison.parts) parts.push_back(part_json(part, limits));
-  const Json json{{"a", comparison.a},          {"b", comparison.b},
-                  {"equal", equal(comparison)}, {"within", within(comparison, limits)},
-                  {"facts", comparison.facts},  {"parts", std::move(parts)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const JsonValue json{{"a", comparison.a},          {"b", comparison.b},
+                       {"equal", equal(comparison)}, {"within", within(comparison, limits)},
+                       {"facts", comparison.facts},  {"parts", std::move(parts)}};
+  return json_text(json);
 }
 
 } // namespace tilepack

@@ -1,9 +1,9 @@
 #include "tilepack/measure/mapping_survey.h"
 
+#include "tilepack/json/json_value.h"
 #include "tilepack/mapping/even_pattern.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,17 +54,17 @@ std::string family_text(const FamilyStatistics& f) {
   return text;
 }
 
-nlohmann::ordered_json pairs_json(const PairCorrelation& c) {
+JsonValue pairs_json(const PairCorrelation& c) {
   return {{"lag", c.lag}, {"equal", c.equal}, {"expected", c.expected}, {"sigmas", c.sigmas}};
 }
 
-nlohmann::ordered_json run_json(const RepeatedRun& run) {
-  nlohmann::ordered_json starts = nlohmann::ordered_json::array();
-  for (int k = 0; k < 2; ++k) starts.push_back({run.x[k], run.y[k]});
+JsonValue run_json(const RepeatedRun& run) {
+  JsonValue starts = JsonValue::array();
+  for (int k = 0; k < 2; ++k) starts.push_back(JsonValue::array({run.x[k], run.y[k]}));
   return {{"length", run.length}, {"by_chance", run.by_chance}, {"starts", starts}};
 }
 
-nlohmann::ordered_json family_json(const FamilyStatistics& f) {
+JsonValue family_json(const FamilyStatistics& f) {
   return {{"name", f.name},
           {"counts", f.counts},
           {"chi_square", f.chi_square},
@@ -178,9 +178,9 @@ std::string survey_text(const std::vector<SurveyedMapping>& survey) {
 
 std::string survey_json(const std::vector<SurveyedMapping>& survey) {
   const VirtualSize window = survey.front().statistics.window;
-  nlohmann::ordered_json mappings = nlohmann::ordered_json::array();
+  JsonValue mappings = JsonValue::array();
   for (const SurveyedMapping& entry : survey) {
-    nlohmann::ordered_json families = nlohmann::ordered_json::array();
+    JsonValue families = JsonValue::array();
     for (const FamilyStatistics& f : entry.statistics.families) families.push_back(family_json(f));
     mappings.push_back(
         {{"name", entry.name},
@@ -189,8 +189,8 @@ std::string survey_json(const std::vector<SurveyedMapping>& survey) {
          {"families", families},
          {"faults", entry.statistics.faults}});
   }
-  const nlohmann::ordered_json all{{"window", {window.width, window.height}}, {"mappings", mappings}};
-  return all.dump(2) + "\n";
+  const JsonValue all{{"window", JsonValue::array({window.width, window.height})}, {"mappings", mappings}};
+  return json_text(all);
 }
 
 } // namespace tilepack

@@ -1,9 +1,9 @@
 #include "tilepack/image/image_file.h"
+#include "tilepack/json/json_value.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/pack/pack_json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,58 +11,12 @@
 namespace tilepack {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr std::size_t line_width = 110;
-
-// One line where it fits, else one member or entry a line; runs of plain numbers are filled up to the width,
-// so that a table of 512 numbers takes 20 lines and not 512.
-void print(const Json& value, std::size_t indent, std::size_t used, std::string& out) {
-  const std::string flat = value.dump();
-  if (!value.is_structured() || used + flat.size() <= line_width) {
-    // dump() packs tightly; reread by a person, commas and colons want a space.
-    bool inside_text = false;
-    for (std::size_t i = 0; i < flat.size(); ++i) {
-      out += flat[i];
-      if (flat[i] == '\\')
-        out += flat[++i];
-      else if (flat[i] == '"')
-        inside_text = !inside_text;
-      else if (!inside_text && (flat[i] == ',' || flat[i] == ':'))
-        out += ' ';
-    }
-    return;
-  }
-  const bool is_object = value.is_object();
-  const bool fill = !is_object && std::all_of(value.begin(), value.end(),
-                                              [](const Json& entry) { return entry.is_number(); });
-  const std::string start(indent + 2, ' ');
-  out += is_object ? '{' : '[';
-  std::size_t column = line_width;
-  bool first = true;
-  for (const auto& [name, entry] : value.items()) {
-    if (!first) out += ',';
-    std::string text = is_object ? Json(name).dump() + ": " : "";
-    print(entry, indent + 2, indent + 2 + text.size() + 1, text);
-    if (fill && column + text.size() + 2 <= line_width) {
-      out += ' ';
-      column += text.size() + 2;
-    } else {
-      out += '\n' + start;
-      column = start.size() + text.size() + 1;
-    }
-    out += text;
-    first = false;
-  }
-  out += '\n' + std::string(indent, ' ') + (is_object ? '}' : ']');
+JsonValue size_json(Size size) {
+  return JsonValue::array({size.width, size.height});
 }
 
-Json size_json(Size size) {
-  return Json::array({size.width, size.height});
-}
-
-Json tiles_json(const TileColors& tiles) {
-  Json list = Json::array();
+JsonValue tiles_json(const TileColors& tiles) {
+  JsonValue list = JsonValue::array();
   if (const auto* edge = std::get_if<std::vector<EdgeTile>>(&tiles)) {
     for (const EdgeTile& t : *edge)
       list.push_back(
@@ -75,19 +29,19 @@ Json tiles_json(const TileColors& tiles) {
 }
 
 // Where the tile's own north-west corner lies, as fractions of the texture's sides.
-Json origin_json(const Layout& layout, int tile, Size tile_size) {
+JsonValue origin_json(const Layout& layout, int tile, Size tile_size) {
   const Placement::Vector origin = placement(layout, tile, tile_size, 0).origin;
   const auto fraction = [](double coordinate, int side) {
     const double turns = coordinate / side;
     return turns - std::floor(turns);
   };
-  return Json::array(
+  return JsonValue::array(
       {fraction(origin.x, layout.rotated.size.width), fraction(origin.y, layout.rotated.size.height)});
 }
 
-Json layout_json(const Layout& layout, Size tile_size) {
-  Json json{{"kind", name_of(layout.kind)}};
-  Json cells = Json::array();
+JsonValue layout_json(const Layout& layout, Size tile_size) {
+  JsonValue json{{"kind", name_of(layout.kind)}};
+  JsonValue cells = JsonValue::array();
   if (layout.kind == LayoutKind::rotated) {
     const RotatedScheme& scheme = layout.rotated.scheme;
     for (const Cell& cell : layout.cells)
@@ -116,10 +70,10 @@ Json layout_json(const Layout& layout, Size tile_size) {
 
 using LevelFiles = std::vector<PackDescription::LevelFile>;
 
-Json maps_json(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>& files) {
-  Json list = Json::array();
+JsonValue maps_json(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>& files) {
+  JsonValue list = JsonValue::array();
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    Json levels = Json::array();
+    JsonValue levels = JsonValue::array();
     for (const auto& level : files[m])
       levels.push_back({{"file", level.file}, {"size", size_json(level.size)}});
     list.push_back({{"name", maps[m].name},
@@ -129,15 +83,14 @@ Json maps_json(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>
                     {"channels", maps[m].channels},
                     {"levels", std::move(levels)}});
     for (const RoundTrip& trip : maps[m].round_trips)
-      list.back()["round_trip_psnr"][std::string(name_of(trip.filter))] =
-          trip.psnr ? Json(*trip.psnr) : Json(nullptr);
+      list.back()["round_trip_psnr"][std::string(name_of(trip.filter))] = trip.psnr;
   }
   return list;
 }
 
-Json mapping_json(const Mapping& mapping, const std::string& index_file) {
-  Json json = {{"kind", name_of(mapping.kind)},
-               {"virtual_size", Json::array({mapping.size.width, mapping.size.height})}};
+JsonValue mapping_json(const Mapping& mapping, const std::string& index_file) {
+  JsonValue json = {{"kind", name_of(mapping.kind)},
+                    {"virtual_size", JsonValue::array({mapping.size.width, mapping.size.height})}};
   switch (mapping.kind) {
   case MappingKind::permutation:
     json["table"] = mapping.table;
@@ -147,7 +100,7 @@ Json mapping_json(const Mapping& mapping, const std::string& index_file) {
     break;
   case MappingKind::even:
     json["seed"] = mapping.seed;
-    json["pattern"] = Json::array();
+    json["pattern"] = JsonValue::array();
     for (std::size_t row = 0; row < even_pattern_side; ++row) {
       std::string digits;
       for (std::size_t column = 0; column < even_pattern_side; ++column)
@@ -162,10 +115,10 @@ Json mapping_json(const Mapping& mapping, const std::string& index_file) {
   return json;
 }
 
-Json generator_json(const Generator& generator) {
+JsonValue generator_json(const Generator& generator) {
   auto sorted = generator.options;
   std::sort(sorted.begin(), sorted.end());
-  Json options = Json::object();
+  JsonValue options = JsonValue::object();
   for (const auto& [name, value] : sorted) options[name] = value;
   return {{"name", generator.name},
           {"version", generator.version},
@@ -173,7 +126,7 @@ Json generator_json(const Generator& generator) {
           {"seed", generator.seed}};
 }
 
-Json mips_json(const Pack& pack) {
+JsonValue mips_json(const Pack& pack) {
   const bool filtered = pack.mip_mode != MipMode::none;
   const bool sanitized = filtered && pack.mip_mode != MipMode::box;
   return {{"filter", filtered ? "box" : "none"},
@@ -182,8 +135,8 @@ Json mips_json(const Pack& pack) {
           {"tile_levels", pack.tile_levels}};
 }
 
-Json synthesis_json(const SetFigures& figures) {
-  Json json;
+JsonValue synthesis_json(const SetFigures& figures) {
+  JsonValue json;
   for (const SetFigureField& field : set_figure_fields) json[std::string(field.name)] = figures.*field.value;
   return json;
 }
@@ -249,14 +202,15 @@ PackDescription described(const Pack& pack) {
 std::string pack_json(const PackDescription& description) {
   const Pack& pack = description.pack;
   const bool edge = coloring_of(pack.tiles) == Coloring::edge;
-  Json json;
+  JsonValue json;
   json["format"] = "tilepack";
   json["version"] = 1;
   json["generator"] = generator_json(pack.generator);
   json["tile_size"] = size_json(pack.tile_size);
   json["coloring"] = edge ? "edge" : "corner";
-  json["colors"] = edge ? Json{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
-                        : Json{{"corner", pack.colors.corner}};
+  json["colors"] = edge
+                       ? JsonValue{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
+                       : JsonValue{{"corner", pack.colors.corner}};
   json["tiles"] = tiles_json(pack.tiles);
   json["layout"] = layout_json(pack.layout, pack.tile_size);
   json["maps"] = maps_json(pack.maps, description.map_files);
@@ -268,9 +222,7 @@ std::string pack_json(const PackDescription& description) {
                            {"maps", maps_json(pack.corner_pack->maps, description.corner_files)}};
   json["mips"] = mips_json(pack);
   if (pack.synthesis) json["synthesis"] = synthesis_json(*pack.synthesis);
-  std::string text;
-  print(json, 0, 0, text);
-  return text + '\n';
+  return filled_json_text(json);
 }
 
 } // namespace tilepack

@@ -1,54 +1,53 @@
+#include "tilepack/json/json_value.h"
 #include "tilepack/report/pack_summary.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace tilepack {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using LevelFiles = std::vector<PackDescription::LevelFile>;
 
 // What maps are, without their files.
-Json map_json(const PackedMap& map) {
-  Json json{{"name", map.name},
-            {"role", name_of(map.role)},
-            {"encoding", name_of(map.encoding)},
-            {"depth", name_of(map.depth)},
-            {"channels", map.channels}};
+JsonValue map_json(const PackedMap& map) {
+  JsonValue json{{"name", map.name},
+                 {"role", name_of(map.role)},
+                 {"encoding", name_of(map.encoding)},
+                 {"depth", name_of(map.depth)},
+                 {"channels", map.channels}};
   for (const RoundTrip& trip : map.round_trips)
-    json["round_trip_psnr"][std::string(name_of(trip.filter))] = trip.psnr ? Json(*trip.psnr) : Json(nullptr);
+    json["round_trip_psnr"][std::string(name_of(trip.filter))] = trip.psnr;
   return json;
 }
 
-Json rotated_json(const RotatedGrid& grid) {
+JsonValue rotated_json(const RotatedGrid& grid) {
   return {{"scheme", formula(grid.scheme)},
           {"angle", angle_in_degrees(grid.scheme)},
           {"gutter", grid.gutter},
           {"matching", name_of(grid.matching)}};
 }
 
-Json corner_pack_json(const CornerPack& corners) {
+JsonValue corner_pack_json(const CornerPack& corners) {
   return {{"columns", corners.columns}, {"rows", corners.rows}, {"width", corners.width}};
 }
 
-Json figures_json(const SetFigures& figures) {
-  Json json = Json::object();
+JsonValue figures_json(const SetFigures& figures) {
+  JsonValue json = JsonValue::object();
   for (const SetFigureField& field : set_figure_fields) json[std::string(field.name)] = figures.*field.value;
   return json;
 }
 
-Json maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
-               const std::vector<LevelFiles>& files) {
-  Json list = Json::array();
+JsonValue maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
+                    const std::vector<LevelFiles>& files) {
+  JsonValue list = JsonValue::array();
   for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
-    Json levels = Json::array();
+    JsonValue levels = JsonValue::array();
     for (const auto& level : files[m]) {
       const auto found = summary.file_bytes.find(level.file);
-      levels.push_back({{"file", level.file},
-                        {"size", {level.size.width, level.size.height}},
-                        {"bytes", found == summary.file_bytes.end() ? Json(nullptr) : Json(found->second)}});
+      levels.push_back(
+          {{"file", level.file},
+           {"size", JsonValue::array({level.size.width, level.size.height})},
+           {"bytes", found == summary.file_bytes.end() ? JsonValue(nullptr) : JsonValue(found->second)}});
     }
     list.push_back(map_json(maps[m]));
     list.back()["levels"] = std::move(levels);
@@ -56,28 +55,36 @@ Json maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
   return list;
 }
 
-Json tiles_json(const Pack& pack) {
-  Json list = Json::array();
+JsonValue tiles_json(const Pack& pack) {
+  JsonValue list = JsonValue::array();
   std::vector<const Cell*> cell_of(static_cast<std::size_t>(tile_count(pack.tiles)), nullptr);
   for (const Cell& cell : pack.layout.cells) cell_of[static_cast<std::size_t>(cell.tile)] = &cell;
   for (int tile = 0; tile < tile_count(pack.tiles); ++tile) {
-    Json json{{"id", tile}};
+    JsonValue json{{"id", tile}};
     if (const auto* edges = std::get_if<std::vector<EdgeTile>>(&pack.tiles)) {
       const EdgeTile& t = (*edges)[static_cast<std::size_t>(tile)];
-      json.update({{"north", t.north}, {"east", t.east}, {"south", t.south}, {"west", t.west}});
+      json["north"] = t.north;
+      json["east"] = t.east;
+      json["south"] = t.south;
+      json["west"] = t.west;
     } else {
       const CornerTile& t = std::get<std::vector<CornerTile>>(pack.tiles)[static_cast<std::size_t>(tile)];
-      json.update({{"nw", t.nw}, {"ne", t.ne}, {"sw", t.sw}, {"se", t.se}});
+      json["nw"] = t.nw;
+      json["ne"] = t.ne;
+      json["sw"] = t.sw;
+      json["se"] = t.se;
     }
-    if (const Cell* cell = cell_of[static_cast<std::size_t>(tile)])
-      json.update({{"column", cell->column}, {"row", cell->row}});
+    if (const Cell* cell = cell_of[static_cast<std::size_t>(tile)]) {
+      json["column"] = cell->column;
+      json["row"] = cell->row;
+    }
     list.push_back(std::move(json));
   }
   return list;
 }
 
-Json seams_json(const SeamFigures& seams) {
-  Json worst = Json::array();
+JsonValue seams_json(const SeamFigures& seams) {
+  JsonValue worst = JsonValue::array();
   for (const BorderStep& border : seams.worst)
     worst.push_back({{"tile", border.tile},
                      {"side", name_of(border.side)},
@@ -91,25 +98,26 @@ Json seams_json(const SeamFigures& seams) {
           {"worst", std::move(worst)}};
 }
 
-Json synthesis_json(const BakeFacts& facts) {
-  Json json = figures_json(facts.report.figures);
+JsonValue synthesis_json(const BakeFacts& facts) {
+  JsonValue json = figures_json(facts.report.figures);
   json["border_step"] = facts.seams.seam;
-  json["periods"] = {facts.nature.periods.x.length, facts.nature.periods.y.length};
+  json["periods"] = JsonValue::array({facts.nature.periods.x.length, facts.nature.periods.y.length});
   json["drift"] = facts.nature.drift;
   json["shading"] = facts.nature.shading;
   json["two_tone"] = facts.nature.two_tone;
   json["ink"] = facts.nature.ink;
   const Landmark& mark = facts.report.landmark;
-  json["landmark"] = {
-      {"at", {mark.centre.x, mark.centre.y}}, {"deviation", mark.deviation}, {"shown", mark.shown}};
+  json["landmark"] = {{"at", JsonValue::array({mark.centre.x, mark.centre.y})},
+                      {"deviation", mark.deviation},
+                      {"shown", mark.shown}};
   return json;
 }
 
-Json verdict_json(const BakeFacts& facts) {
+JsonValue verdict_json(const BakeFacts& facts) {
   const BakeVerdict verdict = bake_verdict(facts);
-  Json json;
+  JsonValue json;
   json["grade"] = name_of(verdict.grade);
-  json["remarks"] = Json::array();
+  json["remarks"] = JsonValue::array();
   for (const BakeRemark& remark : verdict.remarks)
     json["remarks"].push_back({{"grade", name_of(remark.grade)}, {"text", remark.text}});
   return json;
@@ -121,14 +129,15 @@ std::string summary_json(const PackSummary& summary) {
   const PackDescription& description = summary.description;
   const Pack& pack = description.pack;
   const bool edge = coloring_of(pack.tiles) == Coloring::edge;
-  Json colors = edge ? Json{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
-                     : Json{{"corner", pack.colors.corner}};
-  Json options = Json::object();
+  JsonValue colors =
+      edge ? JsonValue{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
+           : JsonValue{{"corner", pack.colors.corner}};
+  JsonValue options = JsonValue::object();
   for (const auto& [name, value] : pack.generator.options) options[name] = value;
   const std::uint64_t in_memory = bytes_in_memory(pack, description);
-  Json json{
+  JsonValue json{
       {"pack", summary.subject},
-      {"tile_size", {pack.tile_size.width, pack.tile_size.height}},
+      {"tile_size", JsonValue::array({pack.tile_size.width, pack.tile_size.height})},
       {"coloring", edge ? "edge" : "corner"},
       {"colors", std::move(colors)},
       {"layout",
@@ -137,7 +146,7 @@ std::string summary_json(const PackSummary& summary) {
       {"maps", maps_json(summary, pack.maps, description.map_files)},
       {"mapping",
        {{"kind", name_of(pack.mapping.kind)},
-        {"virtual_size", {pack.mapping.size.width, pack.mapping.size.height}}}},
+        {"virtual_size", JsonValue::array({pack.mapping.size.width, pack.mapping.size.height})}}},
       {"mips", {{"mode", name_of(pack.mip_mode)}, {"levels", pack.tile_levels}, {"guard", pack.guard}}},
       {"bytes",
        {{"files", bytes_on_disk(summary)},
@@ -156,22 +165,22 @@ std::string summary_json(const PackSummary& summary) {
   }
   if (pack.synthesis) json["synthesis"] = figures_json(*pack.synthesis);
   if (summary.seams) json["seams"] = seams_json(*summary.seams);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 std::string made_json(const PackDescription& made, const std::string& folder, const BakeFacts* facts) {
   const Pack& pack = made.pack;
-  Json json;
+  JsonValue json;
   json["pack"] = folder;
   json["tiles"] = tile_count(pack.tiles);
-  json["tile_size"] = {pack.tile_size.width, pack.tile_size.height};
+  json["tile_size"] = JsonValue::array({pack.tile_size.width, pack.tile_size.height});
   json["tile_levels"] = pack.tile_levels;
   json["layout"] = name_of(pack.layout.kind);
   json["mapping"] = name_of(pack.mapping.kind);
-  json["virtual_size"] = {pack.mapping.size.width, pack.mapping.size.height};
+  json["virtual_size"] = JsonValue::array({pack.mapping.size.width, pack.mapping.size.height});
   if (pack.layout.kind == LayoutKind::rotated) json["rotated"] = rotated_json(pack.layout.rotated);
   if (pack.corner_pack) json["corner_pack"] = corner_pack_json(*pack.corner_pack);
-  json["maps"] = Json::array();
+  json["maps"] = JsonValue::array();
   for (const PackedMap& map : pack.maps) json["maps"].push_back(map_json(map));
   json["files"] = made.all_files();
   json["files"].push_back("pack.json");
@@ -179,7 +188,7 @@ std::string made_json(const PackDescription& made, const std::string& folder, co
     json["synthesis"] = synthesis_json(*facts);
     json["verdict"] = verdict_json(*facts);
   }
-  return json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
+  return json_text(json, JsonLetters::ascii);
 }
 
 } // namespace tilepack
