@@ -14,7 +14,7 @@ using testing::features;
 namespace {
 
 // Blobs whose contrast grows from nothing in the west to that of `blobs` in the east.
-Image livelier_eastward(int side) {
+Image contrast_growing_eastward(int side) {
   Image image = blobs(side, side);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)
@@ -37,8 +37,8 @@ double mean_step(const FeatureImage& image, const SourceCanvas& canvas) {
 
 } // namespace
 
-TEST_CASE("contrast ranks split a sample's squares into equal parts, the calm ones first") {
-  const FeatureImage image = features(livelier_eastward(160));
+TEST_CASE("contrast ranks split a sample's squares into equal parts, those of least contrast first") {
+  const FeatureImage image = features(contrast_growing_eastward(160));
   const ContrastRanks ranks = contrast_ranks(image);
   REQUIRE(ranks.square == 2);
   REQUIRE(ranks.wide == 80);
@@ -61,8 +61,8 @@ TEST_CASE("contrast ranks of a flat sample are all the lowest; squares cut off a
   CHECK(ranks.ranks == std::vector<std::uint8_t>(101 * 66, 0));
 }
 
-TEST_CASE("polishing with a price on calm parts keeps the contrast round a seam") {
-  const FeatureImage image = features(livelier_eastward(160));
+TEST_CASE("matching with a contrast weight keeps the contrast round a seam") {
+  const FeatureImage image = features(contrast_growing_eastward(160));
   SourceCanvas start(40, 48);
   for (int y = 0; y < start.height; ++y)
     for (int x = 0; x < start.width; ++x)
@@ -72,7 +72,7 @@ TEST_CASE("polishing with a price on calm parts keeps the contrast round a seam"
     PatchMatchOptions options;
     options.contrast_weight = contrast_weight;
     std::vector<SourceCanvas> canvases{start};
-    match_and_vote(image, contrast_ranks(image), 1, fixed, {0, 0, 40, 48}, options, canvases);
+    match_and_vote({image, contrast_ranks(image), 1, fixed, {0, 0, 40, 48}}, options, canvases);
     return mean_step(image, canvases[0]);
   };
   const double plain = contrast(0.0);

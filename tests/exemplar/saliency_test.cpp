@@ -38,7 +38,7 @@ TEST_CASE("a cell of another hue stands out, though it is as bright as the rest"
   CHECK(most - cells.values.begin() == 10 * 16 + 6);
   CHECK(*most > 10);
   CHECK(std::count_if(cells.values.begin(), cells.values.end(),
-                      [](double d) { return d > striking_deviation; }) < 10);
+                      [](double d) { return d > salient_deviation; }) < 10);
   // A sample of one value, and one too small for a cell.
   const Saliency plain = saliency_of(features(Image(40, 33, 3, 0.5f)));
   CHECK(plain.values == std::vector<double>(4, 0.0));
@@ -72,7 +72,7 @@ TEST_CASE("what the eye would find again is shown by few tiles") {
           return set_report(sample, framed_set(sample, options, settings)).landmark.shown;
         };
         with += shown();
-        settings.frame.caution = settings.interiors.caution = 0.0;
+        settings.frame.saliency_weight = settings.interiors.saliency_weight = 0.0;
         without += shown();
       }
   }

@@ -38,32 +38,33 @@ TEST_CASE("parts are in step that lie whole periods apart, along axes where a ti
   CHECK_FALSE(along_x(42.69, 128).free());
   CHECK_FALSE(along_x(85.34, 86).free()); // a texel off is near enough
 
-  const PeriodAlignment phase = along_x(42.69, 128).through({10, 7});
-  for (const int whole : {10, 53, 95, 138, -33}) CHECK(phase.allows({whole, 1000}, 1));
-  for (const int other : {12, 20, 31, 50, 97}) CHECK_FALSE(phase.allows({other, 7}, 1));
-  CHECK(phase.allows({12, 0}, 4)); // a search by fours has no nearer place
-  CHECK_FALSE(phase.allows({14, 0}, 4));
+  const PeriodAlignment alignment = along_x(42.69, 128).through({10, 7});
+  for (const int whole : {10, 53, 95, 138, -33}) CHECK(alignment.allows({whole, 1000}, 1));
+  for (const int other : {12, 20, 31, 50, 97}) CHECK_FALSE(alignment.allows({other, 7}, 1));
+  CHECK(alignment.allows({12, 0}, 4)); // a search by fours has no nearer place
+  CHECK_FALSE(alignment.allows({14, 0}, 4));
 
-  const PeriodAlignment from_the_middle = phase.seen_from({-5, 3});
+  const PeriodAlignment from_the_middle = alignment.seen_from({-5, 3});
   CHECK(from_the_middle.allows({5, 0}, 1));
   CHECK_FALSE(from_the_middle.allows({10, 0}, 1));
 }
 
 TEST_CASE("the nearest place in step lies within the bounds wherever one does") {
-  const PeriodAlignment phase = along_x(40.0, 120).through({10, 0});
-  CHECK(phase.nearest({48, 33}, {0, 0}, {200, 200}) == SourceTexel{50, 33});
-  CHECK(phase.nearest({32, 33}, {0, 0}, {200, 200}) == SourceTexel{50, 33});
-  CHECK(phase.nearest({28, 33}, {0, 0}, {200, 200}) == SourceTexel{10, 33});
-  CHECK(phase.nearest({28, 33}, {20, 0}, {200, 200}) == SourceTexel{50, 33});
-  CHECK(phase.nearest({195, 33}, {0, 0}, {195, 200}) == SourceTexel{170, 33});
+  const PeriodAlignment alignment = along_x(40.0, 120).through({10, 0});
+  CHECK(alignment.nearest({48, 33}, {0, 0}, {200, 200}) == SourceTexel{50, 33});
+  CHECK(alignment.nearest({32, 33}, {0, 0}, {200, 200}) == SourceTexel{50, 33});
+  CHECK(alignment.nearest({28, 33}, {0, 0}, {200, 200}) == SourceTexel{10, 33});
+  CHECK(alignment.nearest({28, 33}, {20, 0}, {200, 200}) == SourceTexel{50, 33});
+  CHECK(alignment.nearest({195, 33}, {0, 0}, {195, 200}) == SourceTexel{170, 33});
 }
 
 TEST_CASE("of a map of positions some in every period stay, all of them in step") {
   for (const int scale : {1, 2, 4}) {
     const double period = 21.34;
-    const PeriodAlignment phase = PeriodAlignment({{period, 1.0}, {period, 1.0}}, {64, 64}).through({5, 9});
+    const PeriodAlignment alignment =
+        PeriodAlignment({{period, 1.0}, {period, 1.0}}, {64, 64}).through({5, 9});
     PositionMap map{64, 50, std::vector<std::int64_t>(std::size_t{64} * 50, 1)};
-    rule_out_of_step(map, phase, scale);
+    rule_out_of_step(map, alignment, scale);
     std::set<int> columns, rows;
     for (int y = 0; y < map.height; ++y)
       for (int x = 0; x < map.width; ++x) {

@@ -28,19 +28,20 @@ SourceCanvas banded(int width, int height, std::uint64_t seed) {
 }
 
 LaidPatch whole(const SourceCanvas& canvas, SourceTexel origin) {
-  LaidPatch move{{0, 0, canvas.width, canvas.height}, origin, {}};
-  move.freedom.assign(canvas.texels.size(), CutConstraint::free);
-  return move;
+  LaidPatch patch{{0, 0, canvas.width, canvas.height}, origin, {}};
+  patch.constraints.assign(canvas.texels.size(), CutConstraint::free);
+  return patch;
 }
 
-std::int64_t least_by_trying(const FeatureImage& image, const SourceCanvas& start, const LaidPatch& move) {
+std::int64_t least_by_trying(const FeatureImage& image, const SourceCanvas& start, const LaidPatch& patch) {
   std::vector<std::size_t> open;
   SourceCanvas canvas = start;
   for (std::size_t i = 0; i < canvas.texels.size(); ++i) {
     const int x = static_cast<int>(i) % canvas.width;
     const int y = static_cast<int>(i) / canvas.width;
-    if (move.freedom[i] == CutConstraint::free) open.push_back(i);
-    if (move.freedom[i] == CutConstraint::take) canvas.texels[i] = {move.origin.x + x, move.origin.y + y};
+    if (patch.constraints[i] == CutConstraint::free) open.push_back(i);
+    if (patch.constraints[i] == CutConstraint::take)
+      canvas.texels[i] = {patch.origin.x + x, patch.origin.y + y};
   }
   std::int64_t least = std::numeric_limits<std::int64_t>::max();
   for (std::uint32_t bits = 0; bits < (1u << open.size()); ++bits) {
@@ -48,7 +49,7 @@ std::int64_t least_by_trying(const FeatureImage& image, const SourceCanvas& star
       const int x = static_cast<int>(open[k]) % canvas.width;
       const int y = static_cast<int>(open[k]) / canvas.width;
       canvas.texels[open[k]] =
-          (bits >> k & 1u) != 0 ? SourceTexel{move.origin.x + x, move.origin.y + y} : start.texels[open[k]];
+          (bits >> k & 1u) != 0 ? SourceTexel{patch.origin.x + x, patch.origin.y + y} : start.texels[open[k]];
     }
     least = std::min(least, seam_energy(image, canvas));
   }
@@ -57,48 +58,48 @@ std::int64_t least_by_trying(const FeatureImage& image, const SourceCanvas& star
 
 } // namespace
 
-TEST_CASE("a cut move never raises the seam energy") {
+TEST_CASE("a laid patch never raises the seam energy") {
   const FeatureImage image = noise(48, 48, 1);
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SourceCanvas canvas = banded(20, 16, seed);
     const std::int64_t before = seam_energy(image, canvas);
-    const LaidPatch move = whole(canvas, {static_cast<int>(random_below(seed, "ox", 0, 28)),
-                                          static_cast<int>(random_below(seed, "oy", 0, 32))});
-    const bool changed = lay_patch(image, canvas, move);
+    const LaidPatch patch = whole(canvas, {static_cast<int>(random_below(seed, "ox", 0, 28)),
+                                           static_cast<int>(random_below(seed, "oy", 0, 32))});
+    const bool changed = lay_patch(image, canvas, patch);
     CHECK(seam_energy(image, canvas) <= before);
     CHECK(changed == (canvas.texels != banded(20, 16, seed).texels));
   }
 }
 
-TEST_CASE("a cut move over a canvas without seams is the best of all ways to lay it") {
+TEST_CASE("a laid patch over a canvas without seams is the best of all ways to lay it") {
   const FeatureImage image = noise(24, 24, 2);
   for (std::uint64_t seed = 0; seed < 25; ++seed) {
     SourceCanvas canvas(5, 4);
     for (int y = 0; y < 4; ++y)
       for (int x = 0; x < 5; ++x) canvas.at(x, y) = {x + 1, y + 2};
-    LaidPatch move = whole(canvas, {7 + static_cast<int>(seed % 5), 9});
-    for (std::size_t i = 0; i < move.freedom.size(); ++i) {
+    LaidPatch patch = whole(canvas, {7 + static_cast<int>(seed % 5), 9});
+    for (std::size_t i = 0; i < patch.constraints.size(); ++i) {
       const auto draw = random_below(seed, "freedom", i, 6);
-      move.freedom[i] = draw == 0   ? CutConstraint::take
-                        : draw == 1 ? CutConstraint::keep
-                                    : CutConstraint::free;
+      patch.constraints[i] = draw == 0   ? CutConstraint::take
+                             : draw == 1 ? CutConstraint::keep
+                                         : CutConstraint::free;
     }
-    const std::int64_t least = least_by_trying(image, canvas, move);
-    lay_patch(image, canvas, move);
+    const std::int64_t least = least_by_trying(image, canvas, patch);
+    lay_patch(image, canvas, patch);
     CHECK(seam_energy(image, canvas) == least);
   }
 }
 
-TEST_CASE("a cut move keeps what must stay and takes what must go") {
+TEST_CASE("a laid patch keeps what must stay and takes what must go") {
   const FeatureImage image = noise(40, 40, 3);
   const SourceCanvas start = banded(12, 9, 5);
   SourceCanvas canvas = start;
-  LaidPatch move{{3, 2, 6, 5}, {11, 13}, {}};
+  LaidPatch patch{{3, 2, 6, 5}, {11, 13}, {}};
   for (int i = 0; i < 30; ++i)
-    move.freedom.push_back(i % 3 == 0   ? CutConstraint::take
-                           : i % 3 == 1 ? CutConstraint::keep
-                                        : CutConstraint::free);
-  lay_patch(image, canvas, move);
+    patch.constraints.push_back(i % 3 == 0   ? CutConstraint::take
+                                : i % 3 == 1 ? CutConstraint::keep
+                                             : CutConstraint::free);
+  lay_patch(image, canvas, patch);
   for (int y = 0; y < 9; ++y)
     for (int x = 0; x < 12; ++x) {
       const bool inside = x >= 3 && x < 9 && y >= 2 && y < 7;

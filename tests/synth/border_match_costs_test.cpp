@@ -71,7 +71,7 @@ TEST_CASE("sums of many largest products do not overflow") {
 
 // The definition, texel by texel: what the frame shows of a tile within `reach` of one border, less the parts
 // that belong to the strips of the other direction.
-TEST_CASE("misfits are the differences between what strips show and what insides would show there") {
+TEST_CASE("match_costs are the differences between what strips show and what insides would show there") {
   const FeatureImage image = noise(60, 52, 3);
   for (const Size tile : {Size{24, 18}, Size{17, 25}}) {
     SynthOptions options;
@@ -79,16 +79,17 @@ TEST_CASE("misfits are the differences between what strips show and what insides
     options.coloring = Coloring::corner;
     options.colors = {0, 0, 2};
     const FrameShape shape = frame_shape(options, {}, 0.2, 0.3);
-    const BorderMatchCosts misfits(image, shape);
-    REQUIRE(misfits.positions().stride == 1);
-    REQUIRE(misfits.positions().columns == image.width - tile.width + 1);
+    const BorderMatchCosts match_costs(image, shape, 10'000);
+    REQUIRE(match_costs.positions().stride == 1);
+    REQUIRE(match_costs.positions().columns == image.width - tile.width + 1);
     for (const Direction direction : {Direction::horizontal, Direction::vertical}) {
-      const StripAxes space = space_of(shape, direction);
-      const StripAt strip{image, shape, space, {11, 7}, {20, 22}, {31, 25}};
-      const auto maps = misfits.of(strip);
-      for (int j = 0; j < misfits.positions().rows; j += 3)
-        for (int i = 0; i < misfits.positions().columns; i += 5)
-          for (const bool before : {true, false}) {
+      const StripAxes axes = axes_of(shape, direction);
+      const StripAt strip{image, shape, axes, {11, 7}, {20, 22}, {31, 25}};
+      const auto maps = match_costs.of(strip);
+      for (int j = 0; j < match_costs.positions().rows; j += 3)
+        for (int i = 0; i < match_costs.positions().columns; i += 5)
+          for (const EdgeSide side : {EdgeSide::before, EdgeSide::after}) {
+            const bool before = side == EdgeSide::before;
             std::int64_t expected = 0;
             for (int y = 0; y < tile.height; ++y)
               for (int x = 0; x < tile.width; ++x) {
@@ -105,10 +106,10 @@ TEST_CASE("misfits are the differences between what strips show and what insides
                 expected += squared_difference(strip.shown(of_horizontal ? x : y, across),
                                                image.texel(i + x, j + y), image.channels);
               }
-            const auto place = static_cast<std::size_t>(j * misfits.positions().columns + i);
+            const auto place = static_cast<std::size_t>(j * match_costs.positions().columns + i);
             INFO("tile " << tile.width << " x " << tile.height << ", " << i << ", " << j
                          << (before ? " before" : " after"));
-            CHECK(maps[before ? 0 : 1][place] ==
+            CHECK(maps[static_cast<std::size_t>(side)][place] ==
                   static_cast<float>(static_cast<double>(expected) / shape.reach));
           }
     }

@@ -12,26 +12,27 @@ namespace {
 // A frame for 16 tiles, and what is chosen inside it.
 struct FramedTiles {
   SampleAnalysis sample = analysed(testing::features(testing::blobs(160, 144)), Periodicity{});
-  FeaturePyramid pyramid{sample.features};
-  PatchSearch search{pyramid.back()};
-  FrameShape shape =
-      frame_shape(testing::two_colors({32, 32}, Coloring::corner, 1), Periodicity{}, 0.125, 0.1875);
-  FrameSources plan = searched_frame(pyramid, search, sample, shape, {});
-  std::vector<SourceCanvas> tiles = framed_tiles(shape, joined_frame(sample.features, shape, plan));
+  SearchSpace space{
+      sample, frame_shape(testing::two_colors({32, 32}, Coloring::corner, 1), Periodicity{}, 0.125, 0.1875),
+      FeaturePyramid(sample.features)};
+  FrameSources sources = searched_frame(space, {}, {});
+  std::vector<SourceCanvas> tiles =
+      framed_tiles(space.shape, joined_frame(sample.features, space.shape, sources));
 
   InteriorChoice chosen(int starts, std::uint64_t seed) const {
     InteriorOptions options;
     options.starts = starts;
     options.seed = seed;
-    return chosen_interiors(pyramid, search, sample, shape, plan, tiles, options);
+    return chosen_interiors(space, sources, tiles, options);
   }
 };
 
 } // namespace
 
-TEST_CASE("more orders of choosing insides never end worse, and mostly better") {
+TEST_CASE("more orders of choosing insides never end worse, and sixteen better than one by far") {
   const FramedTiles framed;
   int better = 0;
+  double of_one = 0, of_sixteen = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const double one = framed.chosen(1, seed).cost;
     const double four = framed.chosen(4, seed).cost;
@@ -39,8 +40,11 @@ TEST_CASE("more orders of choosing insides never end worse, and mostly better") 
     CHECK(four <= one); // its orders are among the four
     CHECK(sixteen <= four);
     better += sixteen < one;
+    of_one += one;
+    of_sixteen += sixteen;
   }
-  CHECK(better >= 4);
+  CHECK(better >= 5); // of 6; one order may be the best of all
+  CHECK(of_sixteen < 0.96 * of_one);
 }
 
 TEST_CASE("every tile's window lies inside the sample, and no two tiles show the same one") {

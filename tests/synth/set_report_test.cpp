@@ -7,7 +7,9 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <numeric>
 
 using namespace tilepack;
 using namespace tilepack::testing;
@@ -89,26 +91,59 @@ TEST_CASE("the figures add up to what synthesis counts", "[set_report]") {
   for (const Coloring coloring : {Coloring::edge, Coloring::corner}) {
     const SourceMap sources = synthesize(maps, testing::two_colors({32, 32}, coloring, 0));
     const SetReport report = set_report(analysed(image, {}), sources);
-    double energy = 0;
-    for (int tile = 0; tile < 16; ++tile) {
+    // All figures but those of borders and landmark once more, from the sources alone.
+    std::vector<double> visibilities;
+    std::vector<int> uses(96 * 96);
+    for (std::size_t tile = 0; tile < 16; ++tile) {
       double of_cuts = 0;
-      for (const Cut& cut : cuts_of_tile(image, sources, tile))
+      const auto cuts = cuts_of_tile(image, sources, static_cast<int>(tile));
+      for (const Cut& cut : cuts) {
         of_cuts += cut.visibility * cut.visibility * 2 * image.channels;
+        visibilities.push_back(cut.visibility);
+      }
       SourceCanvas canvas(32, 32);
-      canvas.texels = sources.texels[static_cast<std::size_t>(tile)];
+      canvas.texels = sources.texels[tile];
       CHECK(of_cuts == Approx(static_cast<double>(seam_energy(image, canvas))));
-      energy += of_cuts;
+      CHECK(of_cuts > 0);
+      CHECK(report.tiles[tile].cut_length == static_cast<int>(cuts.size()));
+      for (const SourceTexel& s : canvas.texels) ++uses[static_cast<std::size_t>(s.y * 96 + s.x)];
     }
-    CHECK(energy > 0);
-    CHECK(report.figures.cut_length > 0);
-    CHECK(report.figures.cut_p95 >= report.figures.cut_mean / 2);
-    CHECK(report.figures.distinct_tiles < 16);
-    CHECK(report.figures.coverage > 0.3);
-    // Every texel that a tile shows is counted once for it.
-    std::int64_t shown = 0;
-    for (const int n : tiles_showing(sources, {96, 96})) shown += n;
-    CHECK(shown <= 16 * 32 * 32);
-    CHECK(shown > 16 * 32 * 32 / 2);
+    const SetFigures& figures = report.figures;
+    const auto count = static_cast<double>(visibilities.size());
+    CHECK(figures.cut_length == Approx(count / 16).margin(1e-4));
+    CHECK(figures.cut_mean ==
+          Approx(std::accumulate(visibilities.begin(), visibilities.end(), 0.0) / count).margin(1e-4));
+    // 95 % of the cuts are no more visible than cut_p95.
+    const auto above = std::count_if(visibilities.begin(), visibilities.end(),
+                                     [&](double v) { return v > figures.cut_p95 + 1e-4; });
+    const auto below = std::count_if(visibilities.begin(), visibilities.end(),
+                                     [&](double v) { return v < figures.cut_p95 - 1e-4; });
+    CHECK(static_cast<double>(above) <= 0.05 * count + 1);
+    CHECK(static_cast<double>(below) <= 0.95 * count);
+    double squares = 0;
+    for (const int n : uses) squares += static_cast<double>(n) * n;
+    CHECK(figures.distinct_tiles == Approx(32 * 32 * 16.0 * 16 / squares).margin(1e-4));
+    int shown_cells = 0; // of 16 x 16 texels, of which a quarter is shown
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i) {
+        int shown = 0;
+        for (int y = 0; y < 16; ++y)
+          for (int x = 0; x < 16; ++x)
+            shown += uses[static_cast<std::size_t>((16 * j + y) * 96 + 16 * i + x)] > 0;
+        shown_cells += shown >= 64;
+      }
+    CHECK(figures.coverage == Approx(shown_cells / 36.0).margin(1e-4));
+    // Every tile counts once for a texel that it shows, however often it does.
+    const std::vector<int> showing = tiles_showing(sources, {96, 96});
+    std::int64_t alone = 0, often = 0;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      CHECK(showing[i] <= uses[i]);
+      CHECK((showing[i] > 0) == (uses[i] > 0));
+      alone += showing[i] == 1 ? uses[i] : 0;
+      often += showing[i] >= 8 ? uses[i] : 0;
+    }
+    CHECK(figures.fresh == Approx(static_cast<double>(alone) / (16 * 32 * 32)).margin(2e-4));
+    CHECK(figures.shown_often == Approx(static_cast<double>(often) / (16 * 32 * 32)).margin(2e-4));
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     CHECK(set_report(analysed(image, {}), sources).figures == report.figures);
   }

@@ -9,7 +9,7 @@ namespace tilepack {
 namespace {
 
 constexpr int half = 3;
-constexpr std::int64_t most_squares = 16'384; // what is calm stays so over some texels
+constexpr std::int64_t most_squares = 16'384; // contrast changes slowly from texel to texel
 
 // Per texel, times 64 so that small differences count.
 std::int64_t variance_round(const FeatureImage& image, int x, int y) {
@@ -52,9 +52,9 @@ ContrastRanks contrast_ranks(const FeatureImage& image) {
   tbb::parallel_sort(sorted.begin(), sorted.end());
   result.ranks.resize(variances.size());
   tbb::parallel_for(std::size_t{0}, variances.size(), [&](std::size_t i) {
-    const auto calmer = static_cast<std::size_t>(
-        std::lower_bound(sorted.begin(), sorted.end(), variances[i]) - sorted.begin());
-    result.ranks[i] = static_cast<std::uint8_t>(calmer * ContrastRanks::count / sorted.size());
+    const auto lower = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), variances[i]) -
+                                                sorted.begin());
+    result.ranks[i] = static_cast<std::uint8_t>(lower * ContrastRanks::count / sorted.size());
   });
   return result;
 }

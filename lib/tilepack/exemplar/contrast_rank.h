@@ -7,18 +7,19 @@
 
 namespace tilepack {
 
-/// How lively each part of a sample is among all its parts.
+/// How much contrast each part of a sample has among all its parts.
 ///
-/// The most like patch of a sample is often a calm one: it is near to everything, as a mean is. A choice by
-/// likeness alone therefore shows calm parts more often than the sample does, and what it mends looks washed
-/// out. With ranks it can pay for that, whatever the sample's contrast and however that is distributed.
+/// The patch of a sample most like another is often one of low contrast: it is near to everything, as a mean
+/// is. A choice by likeness alone therefore shows such parts more often than the sample does, and what it
+/// repairs looks washed out. With ranks it can pay for that, whatever the sample's contrast and however that
+/// is distributed.
 struct ContrastRanks {
   static constexpr int count = 64;
 
   int square = 1; ///< each rank holds for so many texels a side
   int wide = 0;   ///< squares in a row; what is left of a row or column at its end is a square too
   int high = 0;
-  std::vector<std::uint8_t> ranks; ///< 0 for the calmest square .. count - 1 for the liveliest
+  std::vector<std::uint8_t> ranks; ///< 0 for the square of least contrast .. count - 1 for that of most
 
   /// Of the square round a texel.
   int at(int x, int y) const {

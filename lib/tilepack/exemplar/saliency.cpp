@@ -63,24 +63,24 @@ Saliency saliency_of(const FeatureImage& image) {
   return result;
 }
 
-double excess_in(const Saliency& deviations, Rect area) {
-  double most = striking_deviation;
+double excess_in(const Saliency& saliency, Rect area) {
+  double most = salient_deviation;
   const auto overlap = [](int first, int last, int index) {
     return std::min(last, (index + 1) * cell) - std::max(first, index * cell);
   };
-  for (int j = std::max(0, area.y / cell); j < deviations.high && j * cell < area.y + area.height; ++j)
-    for (int i = std::max(0, area.x / cell); i < deviations.wide && i * cell < area.x + area.width; ++i)
+  for (int j = std::max(0, area.y / cell); j < saliency.high && j * cell < area.y + area.height; ++j)
+    for (int i = std::max(0, area.x / cell); i < saliency.wide && i * cell < area.x + area.width; ++i)
       if (2 * overlap(area.x, area.x + area.width, i) * overlap(area.y, area.y + area.height, j) >=
           cell * cell)
-        most = std::max(most, deviations.at(i, j));
-  return most - striking_deviation;
+        most = std::max(most, saliency.at(i, j));
+  return most - salient_deviation;
 }
 
-Landmark most_seen(const Saliency& deviations, Size sample, std::span<const int> showing, std::size_t tiles) {
+Landmark most_seen(const Saliency& saliency, Size sample, std::span<const int> showing, std::size_t tiles) {
   Landmark best;
   double most = 0.0;
-  for (int j = 0; j < deviations.high; ++j)
-    for (int i = 0; i < deviations.wide; ++i) {
+  for (int j = 0; j < saliency.high; ++j)
+    for (int i = 0; i < saliency.wide; ++i) {
       std::int64_t shown = 0;
       for (int y = j * cell; y < (j + 1) * cell; ++y) {
         const auto row =
@@ -91,9 +91,9 @@ Landmark most_seen(const Saliency& deviations, Size sample, std::span<const int>
       }
       const double share =
           static_cast<double>(shown) / (static_cast<double>(cell * cell) * static_cast<double>(tiles));
-      const double deviation = deviations.at(i, j);
-      if ((deviation - striking_deviation) * share > most) {
-        most = (deviation - striking_deviation) * share;
+      const double deviation = saliency.at(i, j);
+      if ((deviation - salient_deviation) * share > most) {
+        most = (deviation - salient_deviation) * share;
         best = {{i * cell + cell / 2, j * cell + cell / 2}, deviation, share};
       }
     }

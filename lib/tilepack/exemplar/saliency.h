@@ -24,12 +24,12 @@ struct Saliency {
 
   double at(int x, int y) const { return values[static_cast<std::size_t>(y) * wide + x]; }
 };
-constexpr double striking_deviation = 3.0;
+constexpr double salient_deviation = 3.0;
 Saliency saliency_of(const FeatureImage& image);
 
-/// By how much more than `striking_deviation` the most unlike cell in `area` deviates, of those of which half
+/// By how much more than `salient_deviation` the most unlike cell in `area` deviates, of those of which half
 /// or more lies in it; 0 if none does. In texels of the sample.
-double excess_in(const Saliency& deviations, Rect area);
+double excess_in(const Saliency& saliency, Rect area);
 
 /// The spot of the sample that the eye is most likely to find again: a cell unlike the others that many tiles
 /// show.
@@ -39,9 +39,9 @@ struct Landmark {
   double shown = 0;     ///< share of the tiles that show it, averaged over its texels
 };
 
-/// Of all cells that deviate by more than `striking_deviation` the one with the greatest product of what they
+/// Of all cells that deviate by more than `salient_deviation` the one with the greatest product of what they
 /// deviate more and of how often they are shown. `showing`: how many of `tiles` tiles show each
 /// texel of a sample of this size, row by row.
-Landmark most_seen(const Saliency& deviations, Size sample, std::span<const int> showing, std::size_t tiles);
+Landmark most_seen(const Saliency& saliency, Size sample, std::span<const int> showing, std::size_t tiles);
 
 } // namespace tilepack

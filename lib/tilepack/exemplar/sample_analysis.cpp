@@ -9,7 +9,7 @@ namespace tilepack {
 SampleAnalysis analysed(FeatureImage features, const Periodicity& periods) {
   SampleAnalysis sample{std::move(features), {}, {}, periods};
   tbb::parallel_invoke([&] { sample.statistics = SampleStatistics(sample.features); },
-                       [&] { sample.deviations = saliency_of(sample.features); });
+                       [&] { sample.saliency = saliency_of(sample.features); });
   return sample;
 }
 

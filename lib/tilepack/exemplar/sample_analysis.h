@@ -14,7 +14,7 @@ namespace tilepack {
 struct SampleAnalysis {
   FeatureImage features;
   SampleStatistics statistics; ///< of the features
-  Saliency deviations;         ///< likewise
+  Saliency saliency;           ///< likewise
   Periodicity periods;
 };
 

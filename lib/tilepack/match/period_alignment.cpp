@@ -51,12 +51,12 @@ int PeriodAlignment::Axis::nearest(int texel, int low, int high) const {
   return static_cast<int>(std::lround(place));
 }
 
-void rule_out_of_step(PositionMap& map, const PeriodAlignment& phase, int scale) {
-  if (phase.free()) return;
+void rule_out_of_step(PositionMap& map, const PeriodAlignment& alignment, int scale) {
+  if (alignment.free()) return;
   std::size_t i = 0;
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x, ++i)
-      if (!phase.allows({x * scale, y * scale}, scale)) map.values[i] = ruled_out;
+      if (!alignment.allows({x * scale, y * scale}, scale)) map.values[i] = ruled_out;
 }
 
 } // namespace tilepack

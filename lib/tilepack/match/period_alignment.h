@@ -49,6 +49,6 @@ private:
 };
 
 /// Rules out the positions of a map, made at 1 / scale of the sample's size, that are out of step.
-void rule_out_of_step(PositionMap& map, const PeriodAlignment& phase, int scale);
+void rule_out_of_step(PositionMap& map, const PeriodAlignment& alignment, int scale);
 
 } // namespace tilepack

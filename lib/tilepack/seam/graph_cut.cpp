@@ -13,19 +13,20 @@ using Graph = cv::detail::GCGraph<double>;
 constexpr int kept = -1;  // in place of a node: the texel keeps
 constexpr int taken = -2; // it takes
 
-class MoveGraph {
+class PatchGraph {
 public:
-  MoveGraph(const FeatureImage& feature_image, const SourceCanvas& old_canvas, const LaidPatch& new_move)
-      : image(feature_image), canvas(old_canvas), move(new_move) {
-    const auto count = static_cast<std::size_t>(move.area.width) * static_cast<std::size_t>(move.area.height);
+  PatchGraph(const FeatureImage& feature_image, const SourceCanvas& old_canvas, const LaidPatch& laid_patch)
+      : image(feature_image), canvas(old_canvas), patch(laid_patch) {
+    const auto count =
+        static_cast<std::size_t>(patch.area.width) * static_cast<std::size_t>(patch.area.height);
     node.resize(count);
     unsigned free_count = 0;
-    for (std::size_t i = 0; i < count; ++i) free_count += move.freedom[i] == CutConstraint::free;
+    for (std::size_t i = 0; i < count; ++i) free_count += patch.constraints[i] == CutConstraint::free;
     graph.create(free_count, 2 * free_count + 1);
     for (std::size_t i = 0; i < count; ++i)
-      node[i] = move.freedom[i] == CutConstraint::free   ? graph.addVtx()
-                : move.freedom[i] == CutConstraint::take ? taken
-                                                         : kept;
+      node[i] = patch.constraints[i] == CutConstraint::free   ? graph.addVtx()
+                : patch.constraints[i] == CutConstraint::take ? taken
+                                                              : kept;
     nodes = static_cast<int>(free_count);
   }
 
@@ -33,7 +34,7 @@ public:
   bool has_edges = false;
 
   int node_at(int x, int y) const {
-    const Rect& a = move.area;
+    const Rect& a = patch.area;
     if (x < a.x || y < a.y || x >= a.x + a.width || y >= a.y + a.height) return kept;
     return node[static_cast<std::size_t>(y - a.y) * static_cast<std::size_t>(a.width) +
                 static_cast<std::size_t>(x - a.x)];
@@ -50,7 +51,7 @@ public:
     if (p < 0 && q < 0) return;
     const SourceTexel p_old = canvas.at(x, y);
     const SourceTexel q_old = canvas.at(x + dx, y + dy);
-    const SourceTexel p_new{move.origin.x + x, move.origin.y + y};
+    const SourceTexel p_new{patch.origin.x + x, patch.origin.y + y};
     const SourceTexel q_new{p_new.x + dx, p_new.y + dy};
     const auto cost = [&](SourceTexel a, SourceTexel b) {
       return static_cast<double>(seam_cost(image, a, b, dx, dy));
@@ -101,16 +102,16 @@ private:
 
   const FeatureImage& image;
   const SourceCanvas& canvas;
-  const LaidPatch& move;
+  const LaidPatch& patch;
   Graph graph;
   std::vector<int> node;
 };
 
 } // namespace
 
-bool lay_patch(const FeatureImage& image, SourceCanvas& canvas, const LaidPatch& move, std::int64_t bias) {
-  MoveGraph graph(image, canvas, move);
-  const Rect& a = move.area;
+bool lay_patch(const FeatureImage& image, SourceCanvas& canvas, const LaidPatch& patch, std::int64_t bias) {
+  PatchGraph graph(image, canvas, patch);
+  const Rect& a = patch.area;
   if (graph.nodes > 0) {
     // Pairs within the area, and those that join it to the texels around it.
     for (int y = std::max(0, a.y - 1); y < a.y + a.height; ++y)
@@ -125,7 +126,7 @@ bool lay_patch(const FeatureImage& image, SourceCanvas& canvas, const LaidPatch&
   for (int y = a.y; y < a.y + a.height; ++y)
     for (int x = a.x; x < a.x + a.width; ++x) {
       if (!graph.takes(graph.node_at(x, y))) continue;
-      const SourceTexel from{move.origin.x + x, move.origin.y + y};
+      const SourceTexel from{patch.origin.x + x, patch.origin.y + y};
       changed = changed || canvas.at(x, y) != from;
       canvas.at(x, y) = from;
     }

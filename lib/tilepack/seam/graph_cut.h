@@ -8,7 +8,7 @@
 
 namespace tilepack {
 
-/// What a move may do with a texel.
+/// What laying a patch may do with a texel.
 enum class CutConstraint : std::uint8_t {
   keep, ///< it stays as it is
   free, ///< the cut decides
@@ -18,9 +18,9 @@ enum class CutConstraint : std::uint8_t {
 /// New material laid over part of a canvas: texel (x, y) of the canvas would show sample texel origin + (x,
 /// y).
 struct LaidPatch {
-  Rect area;                          ///< of the canvas
-  SourceTexel origin;                 ///< may lie outside the sample as long as `area` does not
-  std::vector<CutConstraint> freedom; ///< one a texel of `area`, row by row
+  Rect area;                              ///< of the canvas
+  SourceTexel origin;                     ///< may lie outside the sample as long as `area` does not
+  std::vector<CutConstraint> constraints; ///< one a texel of `area`, row by row
 };
 
 /// Lays new material over a canvas along the best cut: among all ways to keep or take the free texels of the
@@ -34,6 +34,7 @@ struct LaidPatch {
 ///
 /// `bias` is paid for each free texel that keeps, so that cuts of like cost leave more new material.
 /// Returns whether any texel changed.
-bool lay_patch(const FeatureImage& image, SourceCanvas& canvas, const LaidPatch& move, std::int64_t bias = 0);
+bool lay_patch(const FeatureImage& image, SourceCanvas& canvas, const LaidPatch& patch,
+               std::int64_t bias = 0);
 
 } // namespace tilepack

@@ -15,8 +15,15 @@ namespace {
 constexpr int half = 3; // squares are 2 half + 1 texels wide
 constexpr int side = 2 * half + 1;
 
-// What a match in a part of the sample costs beyond its difference, in 1 / unit of that.
-struct Prices {
+// Radii of random search are divided by this from trial to trial. [Barnes09] halves them; here propagation finds
+// most, and few trials (anywhere, near and beside) made the search quicker and its finds more varied.
+constexpr int radius_step = 16;
+
+constexpr double most_often = 4.0; // times the average use; being shown more often is no worse
+constexpr int penalty_square = 4;  // texels of the sample at full size to each penalty, along both axes
+
+// By how much a match in each part of the sample counts as less like than it is, in 1 / unit of its distance.
+struct MatchPenalties {
   static constexpr int unit = 64;
   int square = 1; // each holds for so many texels a side, by where a match has its middle
   int columns = 0;
@@ -52,13 +59,13 @@ std::vector<SourceTexel> first_matches(const FeatureImage& image, const PatchMat
   return match;
 }
 
-// One pass over one canvas.
-class PolishPass {
+// One pass over one canvas: the field of nearest neighbours is made better, then the texels are voted on.
+class PatchMatchPass {
 public:
-  PolishPass(const FeatureImage& feature_image, const Prices& sample_prices,
-             const std::vector<std::uint8_t>& fixed_texels, const PatchMatchOptions& polish_options,
-             SourceCanvas& source_canvas, std::vector<SourceTexel>& matches)
-      : image(feature_image), prices(sample_prices), fixed(fixed_texels), options(polish_options),
+  PatchMatchPass(const FeatureImage& feature_image, const MatchPenalties& match_penalties,
+                 const std::vector<std::uint8_t>& fixed_texels, const PatchMatchOptions& match_options,
+                 SourceCanvas& source_canvas, std::vector<SourceTexel>& matches)
+      : image(feature_image), penalties(match_penalties), fixed(fixed_texels), options(match_options),
         canvas(source_canvas), match(matches), channels(static_cast<std::size_t>(image.channels)),
         image_end(image.values.data() + image.values.size()) {
     for (std::size_t i = 0; i < match.size(); ++i)
@@ -72,43 +79,28 @@ public:
     distance.resize(canvas.texels.size());
   }
 
-  // Finds a match for each square. `stream` tells passes and canvases apart.
-  //
-  // Sweeps go forward and backward in turn. A neighbour's match was tried in vain two sweeps ago if it has
-  // not changed since, and is not tried again: matches only get better.
-  void look_up(std::uint64_t stream) {
+  // Makes the match of each square better [Barnes09]: sweeps go forward and backward in turn, and at each
+  // square propagation comes before random search. `stream` tells passes and canvases apart.
+  void search(std::uint64_t stream) {
     for (const std::size_t i : active)
-      distance[i] = priced(match[i], difference(i, match[i], std::numeric_limits<int>::max()));
+      distance[i] = penalized(match[i], difference(i, match[i], std::numeric_limits<int>::max()));
     changed.assign(canvas.texels.size(), 0);
     for (int sweep = 0; sweep < options.sweeps; ++sweep) {
       const std::uint64_t trials = random_bits(stream, "polish trials", static_cast<std::uint64_t>(sweep));
       const bool forward = sweep % 2 == 0;
-      const int step = forward ? 1 : -1;
-      const auto news = [&](std::size_t n) { return match[n] != inactive && changed[n] >= sweep - 1; };
       for (std::size_t n = 0; n < active.size(); ++n) {
         const std::size_t i = forward ? active[n] : active[active.size() - 1 - n];
         if (distance[i] == 0) continue;
         const SourceTexel before = match[i];
-        const std::size_t beside = i - static_cast<std::size_t>(step);
-        const std::size_t above = i - static_cast<std::size_t>(step * canvas.width);
-        if (news(beside)) try_match(i, inside(image, {match[beside].x + step, match[beside].y}));
-        if (news(above)) try_match(i, inside(image, {match[above].x, match[above].y + step}));
-        std::uint64_t bits = mixed(trials + i);
-        // Anywhere, near and beside: trials are cheap only as long as there are few.
-        for (int radius = std::max(image.width, image.height); radius >= 1; radius /= 16) {
-          const auto offset = [&](std::uint64_t word) {
-            return static_cast<int>((word * static_cast<std::uint64_t>(2 * radius + 1)) >> 32) - radius;
-          };
-          const SourceTexel at = match[i];
-          try_match(i, inside(image, {at.x + offset(bits & 0xffffffffu), at.y + offset(bits >> 32)}));
-          bits = mixed(bits + 0x9e3779b97f4a7c15u);
-        }
+        propagate(i, forward ? 1 : -1, sweep);
+        random_search(i, mixed(trials + i));
         if (match[i] != before) changed[i] = sweep;
       }
     }
   }
 
-  // Replaces each texel by what is nearest to the mean of what the matches of its squares show in its place.
+  // Replaces each texel by what is nearest to the mean of what the matches of its squares show in its place:
+  // the vote of [Wexler07] and the M step of [Kwatra05], but for the mean itself, which is in no sample.
   void vote() {
     switch (channels) {
     case 1:
@@ -121,6 +113,28 @@ public:
   }
 
 private:
+  // Tries the matches of the two neighbours that the sweep came from, moved along with the square. One that has
+  // not changed since two sweeps ago was tried in vain then, and is not tried again: matches only get better.
+  void propagate(std::size_t i, int step, int sweep) {
+    const auto is_new = [&](std::size_t n) { return match[n] != inactive && changed[n] >= sweep - 1; };
+    const std::size_t beside = i - static_cast<std::size_t>(step);
+    const std::size_t above = i - static_cast<std::size_t>(step * canvas.width);
+    if (is_new(beside)) try_match(i, inside(image, {match[beside].x + step, match[beside].y}));
+    if (is_new(above)) try_match(i, inside(image, {match[above].x, match[above].y + step}));
+  }
+
+  // Tries places round the match so far, within radii that shrink by `radius_step`.
+  void random_search(std::size_t i, std::uint64_t bits) {
+    for (int radius = std::max(image.width, image.height); radius >= 1; radius /= radius_step) {
+      const auto offset = [&](std::uint64_t word) {
+        return static_cast<int>((word * static_cast<std::uint64_t>(2 * radius + 1)) >> 32) - radius;
+      };
+      const SourceTexel at = match[i];
+      try_match(i, inside(image, {at.x + offset(bits & 0xffffffffu), at.y + offset(bits >> 32)}));
+      bits = mixed(bits + 0x9e3779b97f4a7c15u);
+    }
+  }
+
   // `known`: the number of channels, if the compiler shall know it.
   template <std::size_t known>
   void vote_of() {
@@ -184,24 +198,24 @@ private:
     return sum;
   }
 
-  int priced(SourceTexel s, int d) const {
-    return static_cast<int>(
-        std::min<std::int64_t>(std::numeric_limits<int>::max(),
-                               static_cast<std::int64_t>(d) * (Prices::unit + prices.at(s)) / Prices::unit));
+  int penalized(SourceTexel s, int d) const {
+    return static_cast<int>(std::min<std::int64_t>(
+        std::numeric_limits<int>::max(),
+        static_cast<std::int64_t>(d) * (MatchPenalties::unit + penalties.at(s)) / MatchPenalties::unit));
   }
 
   void try_match(std::size_t i, SourceTexel s) {
     if (s == match[i]) return;
     const int d = difference(i, s, distance[i]);
     if (d >= distance[i]) return;
-    const int cost = priced(s, d);
+    const int cost = penalized(s, d);
     if (cost >= distance[i]) return;
     distance[i] = cost;
     match[i] = s;
   }
 
   const FeatureImage& image;
-  const Prices& prices;
+  const MatchPenalties& penalties;
   const std::vector<std::uint8_t>& fixed;
   const PatchMatchOptions& options;
   SourceCanvas& canvas;
@@ -210,46 +224,46 @@ private:
   const std::uint8_t* image_end;
   std::vector<std::size_t> active; // middles of squares, row by row
   std::vector<std::uint8_t> shown; // what the canvas shows
-  std::vector<int> distance;       // of each square to its match
+  std::vector<int> distance;       // of each square to its match, penalties counted
   std::vector<int> changed;        // the last sweep that changed it
 };
 
-// Of a match by its contrast alone.
-Prices calm_prices(const FeatureImage& image, const ContrastRanks& ranks, int square,
-                   double contrast_weight) {
-  Prices prices{square, (image.width + square - 1) / square, {}};
+// For low contrast alone.
+MatchPenalties contrast_penalties(const FeatureImage& image, const ContrastRanks& ranks, int square,
+                                  double contrast_weight) {
+  MatchPenalties penalties{square, (image.width + square - 1) / square, {}};
   for (int y = square / 2; y - square / 2 < image.height; y += square)
     for (int x = square / 2; x - square / 2 < image.width; x += square) {
       const int rank =
           contrast_weight > 0 ? ranks.at(std::min(x, image.width - 1), std::min(y, image.height - 1)) : 0;
-      prices.values.push_back(static_cast<std::uint16_t>(
-          Prices::unit * contrast_weight * (ContrastRanks::count - rank) / ContrastRanks::count));
+      penalties.values.push_back(static_cast<std::uint16_t>(
+          MatchPenalties::unit * contrast_weight * (ContrastRanks::count - rank) / ContrastRanks::count));
     }
-  return prices;
+  return penalties;
 }
 
-// What is added by how often the canvases show the surroundings of a texel.
-void add_usage(const FeatureImage& image, const std::vector<SourceCanvas>& canvases, Rect shown,
-               double freshness, Prices& prices) {
-  const int square = prices.square;
-  UseCounts usage(image.width, image.height, square);
+// Adds what it costs that canvases show the surroundings of a texel already.
+void add_reuse_penalties(const FeatureImage& image, const std::vector<SourceCanvas>& canvases, Rect counted,
+                         double reuse_weight, MatchPenalties& penalties) {
+  const int square = penalties.square;
+  UseCounts counts(image.width, image.height, square);
   for (const SourceCanvas& canvas : canvases)
-    for (int y = shown.y; y < shown.y + shown.height; ++y)
-      for (int x = shown.x; x < shown.x + shown.width; ++x) {
+    for (int y = counted.y; y < counted.y + counted.height; ++y)
+      for (int x = counted.x; x < counted.x + counted.width; ++x) {
         const SourceTexel s = canvas.at(x, y);
-        usage.add({s.x - s.x % square, s.y - s.y % square, square, square}, 1.0);
+        counts.add({s.x - s.x % square, s.y - s.y % square, square, square}, 1.0);
       }
-  usage.prepare();
-  const double average = usage.mean();
-  constexpr double highest = 4.0; // times the average; more is no worse
-  const int rows = static_cast<int>(prices.values.size()) / prices.columns;
+  const UseTable uses = prepared(counts);
+  const double average = uses.mean();
+  const int rows = static_cast<int>(penalties.values.size()) / penalties.columns;
   tbb::parallel_for(0, rows, [&](int j) {
-    for (int i = 0; i < prices.columns; ++i) {
-      const double often = usage.mean({(i - 2) * square, (j - 2) * square, 5 * square, 5 * square}) / average;
-      std::uint16_t& price =
-          prices.values[static_cast<std::size_t>(j) * static_cast<std::size_t>(prices.columns) +
-                        static_cast<std::size_t>(i)];
-      price = static_cast<std::uint16_t>(price + Prices::unit * freshness * std::min(often, highest));
+    for (int i = 0; i < penalties.columns; ++i) {
+      const double often = uses.mean({(i - 2) * square, (j - 2) * square, 5 * square, 5 * square}) / average;
+      std::uint16_t& penalty =
+          penalties.values[static_cast<std::size_t>(j) * static_cast<std::size_t>(penalties.columns) +
+                           static_cast<std::size_t>(i)];
+      penalty = static_cast<std::uint16_t>(penalty +
+                                           MatchPenalties::unit * reuse_weight * std::min(often, most_often));
     }
   });
 }
@@ -292,14 +306,16 @@ std::vector<std::uint8_t> shrunk_mask(const std::vector<std::uint8_t>& fixed, co
 
 } // namespace
 
-void match_and_vote(const FeatureImage& image, const ContrastRanks& ranks, int scale,
-                    const std::vector<std::uint8_t>& fixed, Rect shown, const PatchMatchOptions& options,
+void match_and_vote(const PatchMatchInput& input, const PatchMatchOptions& options,
                     std::vector<SourceCanvas>& canvases) {
   if (canvases.empty() || options.passes == 0) return;
+  const FeatureImage& image = input.image;
+  const int scale = input.scale;
   const SourceCanvas& one = canvases.front();
   if (std::min({image.width, image.height, one.width / scale, one.height / scale}) < side) return;
-  const auto small_fixed = shrunk_mask(fixed, one, scale);
-  const Rect small_shown{shown.x / scale, shown.y / scale, shown.width / scale, shown.height / scale};
+  const auto fixed = shrunk_mask(input.fixed, one, scale);
+  const Rect& all = input.counted;
+  const Rect counted{all.x / scale, all.y / scale, all.width / scale, all.height / scale};
   const std::size_t count = canvases.size();
   std::vector<SourceCanvas> before(count);
   std::vector<SourceCanvas> after(count);
@@ -308,13 +324,15 @@ void match_and_vote(const FeatureImage& image, const ContrastRanks& ranks, int s
     before[n] = after[n] = shrunk(image, canvases[n], scale);
     matches[n] = first_matches(image, options, after[n]);
   });
-  const Prices by_contrast = calm_prices(image, ranks, std::max(1, 4 / scale), options.contrast_weight);
+  const MatchPenalties by_contrast =
+      contrast_penalties(image, input.ranks, std::max(1, penalty_square / scale), options.contrast_weight);
   for (int pass = 0; pass < options.passes; ++pass) {
-    Prices prices = by_contrast;
-    if (options.freshness > 0.0) add_usage(image, after, small_shown, options.freshness, prices);
+    MatchPenalties penalties = by_contrast;
+    if (options.reuse_weight > 0.0)
+      add_reuse_penalties(image, after, counted, options.reuse_weight, penalties);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
-      PolishPass run(image, prices, small_fixed, options, after[n], matches[n]);
-      run.look_up(random_bits(options.seed, "polish pass", n * 64 + static_cast<std::size_t>(pass)));
+      PatchMatchPass run(image, penalties, fixed, options, after[n], matches[n]);
+      run.search(random_bits(options.seed, "polish pass", n * 64 + static_cast<std::size_t>(pass)));
       run.vote();
     });
   }

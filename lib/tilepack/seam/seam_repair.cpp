@@ -7,19 +7,19 @@
 namespace tilepack {
 namespace {
 
-// The square of side `side` with the greatest sum of costs, of those not ruled out.
-struct Spot {
+struct WorstPatch {
   Rect area;
   std::int64_t cost = 0;
 };
 
-class SpotFinder {
+// Finds the square of side `side` with the greatest sum of seam costs, texels ruled out left aside.
+class WorstPatchFinder {
 public:
-  SpotFinder(const SourceCanvas& canvas, int square_side)
+  WorstPatchFinder(const SourceCanvas& canvas, int square_side)
       : width(canvas.width), height(canvas.height),
-        side(std::min({square_side, canvas.width, canvas.height})), barred(canvas.texels.size(), 0) {}
+        side(std::min({square_side, canvas.width, canvas.height})), ruled(canvas.texels.size(), 0) {}
 
-  Spot worst(const std::vector<std::int64_t>& costs) const {
+  WorstPatch worst(const std::vector<std::int64_t>& costs) const {
     const std::size_t stride = static_cast<std::size_t>(width) + 1;
     std::vector<std::int64_t> sums(stride * (static_cast<std::size_t>(height) + 1));
     for (int y = 0; y < height; ++y) {
@@ -27,28 +27,28 @@ public:
       for (int x = 0; x < width; ++x) {
         const std::size_t i =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        run += barred[i] ? 0 : costs[i];
+        run += ruled[i] ? 0 : costs[i];
         sums[static_cast<std::size_t>(y + 1) * stride + static_cast<std::size_t>(x + 1)] =
             sums[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x + 1)] + run;
       }
     }
-    Spot spot;
+    WorstPatch worst;
     for (int y = 0; y + side <= height; ++y)
       for (int x = 0; x + side <= width; ++x) {
         const auto at = [&](int i, int j) {
           return sums[static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i)];
         };
         const std::int64_t cost = at(x + side, y + side) - at(x, y + side) - at(x + side, y) + at(x, y);
-        if (cost > spot.cost) spot = {{x, y, side, side}, cost};
+        if (cost > worst.cost) worst = {{x, y, side, side}, cost};
       }
-    return spot;
+    return worst;
   }
 
-  // The middle of the spot is not looked at again.
-  void bar(Rect area) {
+  // Its texels are not looked at again.
+  void rule_out(Rect area) {
     for (int y = area.y; y < area.y + area.height; ++y)
       for (int x = area.x; x < area.x + area.width; ++x)
-        barred[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+        ruled[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
             1;
   }
 
@@ -56,14 +56,14 @@ private:
   int width;
   int height;
   int side;
-  std::vector<std::uint8_t> barred;
+  std::vector<std::uint8_t> ruled;
 };
 
-Rect around(Rect spot, int side, int width, int height) {
+Rect around(Rect patch, int side, int width, int height) {
   const int w = std::min(side, width);
   const int h = std::min(side, height);
-  return {std::clamp(spot.x + spot.width / 2 - w / 2, 0, width - w),
-          std::clamp(spot.y + spot.height / 2 - h / 2, 0, height - h), w, h};
+  return {std::clamp(patch.x + patch.width / 2 - w / 2, 0, width - w),
+          std::clamp(patch.y + patch.height / 2 - h / 2, 0, height - h), w, h};
 }
 
 // What the canvas shows in `area`, at 1 / scale of its size.
@@ -110,58 +110,72 @@ void rule_out_material_of(PositionMap& map, const SourceCanvas& canvas, Rect are
     }
 }
 
-void favour_fresh(PositionMap& map, const UseCounts& usage, Size window, double freshness) {
-  const double average = usage.mean();
-  if (average <= 0.0 || freshness <= 0.0) return;
+void add_reuse_weight(PositionMap& map, const UseTable& uses, Size window, double reuse_weight) {
+  const double average = uses.mean();
+  if (average <= 0.0 || reuse_weight <= 0.0) return;
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
-      std::int64_t& misfit = map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                                        static_cast<std::size_t>(x)];
-      if (misfit == ruled_out) continue;
-      const double often = usage.mean({x, y, window.width, window.height}) / average;
-      misfit = static_cast<std::int64_t>(static_cast<double>(misfit) * (1.0 + freshness * often));
+      std::int64_t& mismatch = map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                                          static_cast<std::size_t>(x)];
+      if (mismatch == ruled_out) continue;
+      const double often = uses.mean({x, y, window.width, window.height}) / average;
+      mismatch = static_cast<std::int64_t>(static_cast<double>(mismatch) * (1.0 + reuse_weight * often));
     }
+}
+
+// For each place of the area's north-west texel how unlike what the area shows now the sample is there.
+PositionMap mismatches_of(const SeamRepairInput& input, const SourceCanvas& canvas, Rect area, int scale,
+                          double reuse_weight) {
+  PositionMap map = input.search.mismatches(shown_in(input.pyramid.front(), canvas, area, scale));
+  rule_out_of_step(map, input.alignment.seen_from({area.x, area.y}), scale);
+  rule_out_material_of(map, canvas, area, scale);
+  add_reuse_weight(map, input.uses, {area.width / scale, area.height / scale}, reuse_weight);
+  return map;
+}
+
+// Lays the `tries` windows of the sample most like the area over it. Returns whether any texel changed.
+bool replaced(const SeamRepairInput& input, const SeamRepairOptions& options, Rect area,
+              SourceCanvas& canvas) {
+  const FeatureImage& image = input.pyramid.front();
+  const int scale = 1 << (input.pyramid.size() - 1);
+  PositionMap map = mismatches_of(input, canvas, area, scale, options.reuse_weight);
+  const Overlap full = shown_in(image, canvas, area, 1);
+  LaidPatch patch{area, {}, {}};
+  for (int y = area.y; y < area.y + area.height; ++y)
+    for (int x = area.x; x < area.x + area.width; ++x)
+      patch.constraints.push_back(input.fixed[canvas.index(x, y)] ? CutConstraint::keep
+                                                                  : CutConstraint::free);
+  bool changed = false;
+  for (int attempt = 0; attempt < options.tries; ++attempt) {
+    const auto least = std::min_element(map.values.begin(), map.values.end());
+    if (*least == ruled_out) break;
+    const int at = static_cast<int>(least - map.values.begin());
+    const SourceTexel place = best_near(image, full, {at % map.width * scale, at / map.width * scale}, scale);
+    rule_out(map, place, scale);
+    patch.origin = {place.x - area.x, place.y - area.y};
+    changed = lay_patch(image, canvas, patch) || changed;
+  }
+  return changed;
 }
 
 } // namespace
 
-void replace_worst_patches(const FeaturePyramid& pyramid, const PatchSearch& search, const UseCounts& usage,
-                           const PeriodAlignment& phase, const std::vector<std::uint8_t>& fixed,
-                           const SeamRepairOptions& options, SourceCanvas& canvas) {
-  if (options.spots == 0) return;
-  const FeatureImage& image = pyramid.front();
-  const int scale = 1 << (pyramid.size() - 1);
-  SpotFinder finder(canvas, std::max(1, options.window / 2));
+void replace_worst_patches(const SeamRepairInput& input, const SeamRepairOptions& options,
+                           SourceCanvas& canvas) {
+  if (options.patches == 0) return;
+  const FeatureImage& image = input.pyramid.front();
+  const int scale = 1 << (input.pyramid.size() - 1);
+  WorstPatchFinder finder(canvas, std::max(1, options.window / 2));
   std::vector<std::int64_t> costs = seams_at_texels(image, canvas);
-  for (int n = 0; n < options.spots; ++n) {
-    const Spot spot = finder.worst(costs);
-    if (spot.cost == 0) return;
-    const Rect area = around(spot.area, options.window / scale * scale, canvas.width, canvas.height);
-    finder.bar(around(spot.area, options.window / 3, canvas.width, canvas.height));
+  for (int n = 0; n < options.patches; ++n) {
+    const WorstPatch worst = finder.worst(costs);
+    if (worst.cost == 0) return;
+    const Rect area = around(worst.area, options.window / scale * scale, canvas.width, canvas.height);
+    finder.rule_out(around(worst.area, options.window / 3, canvas.width, canvas.height));
     if (area.width < 2 * scale || area.height < 2 * scale || area.width > image.width ||
         area.height > image.height)
       return;
-    PositionMap map = search.mismatches(shown_in(image, canvas, area, scale));
-    rule_out_of_step(map, phase.seen_from({area.x, area.y}), scale);
-    rule_out_material_of(map, canvas, area, scale);
-    favour_fresh(map, usage, {area.width / scale, area.height / scale}, options.freshness);
-    const Overlap full = shown_in(image, canvas, area, 1);
-    LaidPatch move{area, {}, {}};
-    for (int y = area.y; y < area.y + area.height; ++y)
-      for (int x = area.x; x < area.x + area.width; ++x)
-        move.freedom.push_back(fixed[canvas.index(x, y)] ? CutConstraint::keep : CutConstraint::free);
-    bool changed = false;
-    for (int attempt = 0; attempt < options.tries; ++attempt) {
-      const auto least = std::min_element(map.values.begin(), map.values.end());
-      if (*least == ruled_out) break;
-      const int at = static_cast<int>(least - map.values.begin());
-      const SourceTexel place =
-          best_near(image, full, {at % map.width * scale, at / map.width * scale}, scale);
-      rule_out(map, place, scale);
-      move.origin = {place.x - area.x, place.y - area.y};
-      changed = lay_patch(image, canvas, move) || changed;
-    }
-    if (changed) costs = seams_at_texels(image, canvas);
+    if (replaced(input, options, area, canvas)) costs = seams_at_texels(image, canvas);
   }
 }
 

@@ -11,21 +11,25 @@
 namespace tilepack {
 
 struct SeamRepairOptions {
-  int spots = 12;         ///< places mended in a canvas
-  int window = 28;        ///< side of the square of new material, texels
-  int tries = 2;          ///< windows of the sample tried at each
-  double freshness = 4.0; ///< at f, a window shown as often as the average counts 1 + f times as unlike
+  int patches = 12;          ///< replaced in a canvas, the worst first; 0: none
+  int window = 28;           ///< side of the square of new material, texels
+  int tries = 2;             ///< windows of the sample laid at each
+  double reuse_weight = 4.0; ///< at f, a window shown as often as the average counts 1 + f times as unlike
 };
 
-/// Re-places what joins worst: again and again the square with the highest seam costs is looked up in the
-/// whole sample, and the windows most like what it shows now, other than those it is made of, are laid over
-/// it along best cuts. The seam energy never rises.
-///
-/// `pyramid[0]` is the sample; `search` searches the last level. `fixed`: texels that must stay, 1 each.
-/// `phase`: what must be kept in step with the sample, seen from the canvas's north-west texel.
-/// `usage`: what the set shows of the last level, prepared; of one that counts nothing any window is fresh.
-void replace_worst_patches(const FeaturePyramid& pyramid, const PatchSearch& search, const UseCounts& usage,
-                           const PeriodAlignment& phase, const std::vector<std::uint8_t>& fixed,
-                           const SeamRepairOptions& options, SourceCanvas& canvas);
+/// What is repaired from what.
+struct SeamRepairInput {
+  const FeaturePyramid& pyramid; ///< of the sample; canvases are at the scale of its first level
+  const PatchSearch& search;     ///< of its last level
+  const UseTable& uses; ///< what the set shows of the last level; where it shows nothing, all is fresh
+  const PeriodAlignment& alignment;       ///< what must be kept, seen from the canvas's north-west texel
+  const std::vector<std::uint8_t>& fixed; ///< of a canvas's texels, row by row: 1 if it must stay
+};
+
+/// Replaces what joins worst, as in the seam repair of [Kwatra03]: again and again the square with the
+/// highest seam costs is looked up in the whole sample, and the windows most like what it shows now, other than
+/// those it is made of, are laid over it along best cuts (lay_patch). The seam energy never rises.
+void replace_worst_patches(const SeamRepairInput& input, const SeamRepairOptions& options,
+                           SourceCanvas& canvas);
 
 } // namespace tilepack

@@ -7,9 +7,9 @@
 namespace tilepack {
 namespace {
 
-constexpr std::size_t most_positions = 10'000;
+constexpr EdgeSide both_sides[] = {EdgeSide::before, EdgeSide::after};
 
-Positions inside_positions(const FeatureImage& image, Size tile) {
+Positions inside_positions(const FeatureImage& image, Size tile, std::size_t most_positions) {
   Positions p;
   for (;; ++p.stride) {
     p.columns = (image.width - tile.width) / p.stride + 1;
@@ -36,13 +36,13 @@ struct SideRow {
   int strip_across = 0; // in the strip's window
 };
 
-// `before`: the side of lower across, which belongs to the tile above or to the left. `extent`: of the tile,
-// across the edge.
-SideRow side_row(const StripAxes& space, bool before, int extent, int distance) {
+// `extent`: of the tile, across the edge.
+SideRow side_row(const StripAxes& axes, EdgeSide side, int extent, int distance) {
   // The diagonal belongs to the horizontal strips.
-  const int skip = space.direction == Direction::horizontal ? distance : distance + 1;
-  return {skip, std::max(skip, space.length - skip), before ? extent - 1 - distance : distance,
-          before ? space.reach - 1 - distance : space.reach + distance};
+  const int skip = axes.direction == Direction::horizontal ? distance : distance + 1;
+  const bool before = side == EdgeSide::before;
+  return {skip, std::max(skip, axes.length - skip), before ? extent - 1 - distance : distance,
+          before ? axes.reach - 1 - distance : axes.reach + distance};
 }
 
 int extent_across(const FrameShape& shape, Direction direction) {
@@ -53,22 +53,21 @@ int extent_across(const FrameShape& shape, Direction direction) {
 
 const std::uint8_t* StripAt::shown(int along, int across) const {
   const int half = shape.corner_reach / 2;
-  const SourceTexel t = space.at(along, across);
+  const SourceTexel t = axes.at(along, across);
   SourceTexel s = sum(place, t);
-  if (along < half) s = sum(corner_origin(space, first, false), t);
-  if (along >= space.length - half) s = sum(corner_origin(space, second, true), t);
+  if (along < half) s = sum(corner_origin(axes, first, End::first), t);
+  if (along >= axes.length - half) s = sum(corner_origin(axes, second, End::second), t);
   return image.clamped_texel(s.x, s.y);
 }
 
-BorderMatchCosts::BorderMatchCosts(const FeatureImage& image, const FrameShape& frame_shape)
-    : shape(frame_shape),
-      places(inside_positions(image, shape.tile)), views{
-                                                       view_of(image, space_of(shape, Direction::horizontal)),
-                                                       view_of(transposed(image),
-                                                               space_of(shape, Direction::vertical))} {}
+BorderMatchCosts::BorderMatchCosts(const FeatureImage& image, const FrameShape& frame_shape,
+                                   std::size_t most_positions)
+    : shape(frame_shape), places(inside_positions(image, shape.tile, most_positions)),
+      views{view_of(image, axes_of(shape, Direction::horizontal)),
+            view_of(transposed(image), axes_of(shape, Direction::vertical))} {}
 
-BorderMatchCosts::View BorderMatchCosts::view_of(FeatureImage image, const StripAxes& space) const {
-  const bool swapped = space.direction == Direction::vertical;
+BorderMatchCosts::View BorderMatchCosts::view_of(FeatureImage image, const StripAxes& axes) const {
+  const bool swapped = axes.direction == Direction::vertical;
   PairPlanes pairs(image, places.stride);
   View view{std::move(image),
             std::move(pairs),
@@ -84,11 +83,11 @@ BorderMatchCosts::View BorderMatchCosts::view_of(FeatureImage image, const Strip
       sums[i + 1] = sums[i];
       for (int c = 0; c < own.channels; ++c) sums[i + 1] += own.texel(x, y)[c] * own.texel(x, y)[c];
     }
-  for (const bool before : {true, false}) {
-    std::vector<std::int64_t>& squares = view.squares[before ? 0 : 1];
+  for (const EdgeSide side : both_sides) {
+    std::vector<std::int64_t>& squares = view.squares[static_cast<std::size_t>(side)];
     squares.resize(places.count());
-    for (int distance = 0; distance < space.reach; ++distance) {
-      const SideRow row = side_row(space, before, extent_across(shape, space.direction), distance);
+    for (int distance = 0; distance < axes.reach; ++distance) {
+      const SideRow row = side_row(axes, side, extent_across(shape, axes.direction), distance);
       for (int line = 0; line < view.lines; ++line) {
         const std::int64_t* of_line =
             sums.data() + static_cast<std::size_t>(line * places.stride + row.tile_line) * stride;
@@ -102,15 +101,15 @@ BorderMatchCosts::View BorderMatchCosts::view_of(FeatureImage image, const Strip
   return view;
 }
 
-MisfitMap BorderMatchCosts::of_side(const StripAt& strip, bool before) const {
-  const StripAxes& space = strip.space;
-  const bool swapped = space.direction == Direction::vertical;
+MatchCostMap BorderMatchCosts::of_side(const StripAt& strip, EdgeSide side) const {
+  const StripAxes& axes = strip.axes;
+  const bool swapped = axes.direction == Direction::vertical;
   const View& view = views[swapped ? 1 : 0];
   // sum |S - v|² = sum S² - 2 sum S v + sum v², S of the inside and v of the strip.
   std::vector<PairTerm> terms;
   std::int64_t constant = 0;
-  for (int distance = 0; distance < space.reach; ++distance) {
-    const SideRow row = side_row(space, before, extent_across(shape, space.direction), distance);
+  for (int distance = 0; distance < axes.reach; ++distance) {
+    const SideRow row = side_row(axes, side, extent_across(shape, axes.direction), distance);
     for (int along = row.from; along < row.to; along += 2) {
       const std::uint8_t* first = strip.shown(along, row.strip_across);
       const std::uint8_t* second = along + 1 < row.to ? strip.shown(along + 1, row.strip_across) : nullptr;
@@ -122,9 +121,9 @@ MisfitMap BorderMatchCosts::of_side(const StripAt& strip, bool before) const {
       }
     }
   }
-  MisfitMap map(places.count());
+  MatchCostMap map(places.count());
   std::vector<std::int64_t> products(static_cast<std::size_t>(view.places));
-  const std::int64_t* squares = view.squares[before ? 0 : 1].data();
+  const std::int64_t* squares = view.squares[static_cast<std::size_t>(side)].data();
   for (int line = 0; line < view.lines; ++line, squares += view.places) {
     correlate_pairs(view.pairs.data() + 2 * line * places.stride * view.pairs.row_pitch(), terms, products);
     for (int place = 0; place < view.places; ++place) {
@@ -138,8 +137,8 @@ MisfitMap BorderMatchCosts::of_side(const StripAt& strip, bool before) const {
   return map;
 }
 
-std::array<MisfitMap, 2> BorderMatchCosts::of(const StripAt& strip) const {
-  return {of_side(strip, true), of_side(strip, false)};
+std::array<MatchCostMap, 2> BorderMatchCosts::of(const StripAt& strip) const {
+  return {of_side(strip, EdgeSide::before), of_side(strip, EdgeSide::after)};
 }
 
 } // namespace tilepack

@@ -12,9 +12,9 @@ int step(const std::uint8_t* a, const std::uint8_t* b, int channels) {
   return sum;
 }
 
-int step_at(const FeatureImage& image, const StripAxes& space, SourceTexel place, int along) {
-  const SourceTexel before = sum(place, space.at(along, space.reach - 1));
-  const SourceTexel after = sum(place, space.at(along, space.reach));
+int step_at(const FeatureImage& image, const StripAxes& axes, SourceTexel place, int along) {
+  const SourceTexel before = sum(place, axes.at(along, axes.reach - 1));
+  const SourceTexel after = sum(place, axes.at(along, axes.reach));
   return step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y), image.channels);
 }
 
@@ -30,23 +30,23 @@ double mean_step(const FeatureImage& image, Direction direction) {
   return static_cast<double>(total) / (static_cast<double>(image.width - dx) * (image.height - dy));
 }
 
-double step_across(const FeatureImage& image, const StripAxes& space, SourceTexel place) {
+double step_across(const FeatureImage& image, const StripAxes& axes, SourceTexel place) {
   std::int64_t total = 0;
-  for (int along = 0; along < space.length; ++along) total += step_at(image, space, place, along);
-  return static_cast<double>(total) / space.length;
+  for (int along = 0; along < axes.length; ++along) total += step_at(image, axes, place, along);
+  return static_cast<double>(total) / axes.length;
 }
 
-double step_across(const FeatureImage& image, const FrameShape& shape, const StripAxes& space,
+double step_across(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
                    SourceTexel place, SourceTexel first, SourceTexel second) {
   const int half = shape.corner_reach / 2;
   std::int64_t total = 0;
-  for (int along = 0; along < space.length; ++along) {
+  for (int along = 0; along < axes.length; ++along) {
     SourceTexel origin = place;
-    if (along < half) origin = corner_origin(space, first, false);
-    if (along >= space.length - half) origin = corner_origin(space, second, true);
-    total += step_at(image, space, origin, along);
+    if (along < half) origin = corner_origin(axes, first, End::first);
+    if (along >= axes.length - half) origin = corner_origin(axes, second, End::second);
+    total += step_at(image, axes, origin, along);
   }
-  return static_cast<double>(total) / space.length;
+  return static_cast<double>(total) / axes.length;
 }
 
 } // namespace tilepack

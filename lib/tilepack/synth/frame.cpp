@@ -8,7 +8,7 @@ FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, 
                        double corner_reach) {
   FrameShape shape;
   shape.tile = options.tile_size;
-  shape.phase = PeriodAlignment(periods, shape.tile);
+  shape.alignment = PeriodAlignment(periods, shape.tile);
   const int side = std::min(options.tile_size.width, options.tile_size.height);
   shape.guard = std::max(1, options.guard);
   shape.reach =

@@ -35,7 +35,7 @@ struct FrameShape {
   int reach = 2;        ///< guard < reach <= half the tile
   int corner_reach = 2; ///< reach <= corner_reach <= half the tile
   int corners = 1;
-  PeriodAlignment phase; ///< of the whole periods that a tile holds
+  PeriodAlignment alignment; ///< of the whole periods that a tile holds
   std::vector<Strip> horizontal;
   std::vector<Strip> vertical;
   std::vector<Tile> tiles; ///< by tile id
@@ -50,21 +50,21 @@ FrameShape halved(const FrameShape& shape, int times);
 
 /// Where the frame's parts are taken from.
 struct FrameSources {
-  PeriodAlignment phase;            ///< all parts are in step with the first corner patch
+  PeriodAlignment alignment;        ///< all parts are in step with the first corner patch
   std::vector<SourceTexel> corners; ///< the texel south-east of the lattice point
   std::vector<SourceTexel>
       horizontal; ///< north-west texel of a window of tile.width × 2 reach, edge in the middle
   std::vector<SourceTexel> vertical; ///< of 2 reach × tile.height
 };
 
-/// The strips of a plan with their corner patches joined by cuts: canvases of the windows' sizes.
+/// The strips with their corner patches joined by cuts: canvases of the windows' sizes.
 struct Frame {
   std::vector<SourceCanvas> horizontal;
   std::vector<SourceCanvas> vertical;
 };
 
-/// Cuts the corner patches and strips of `plan` together. In a square of side 2 guard round each lattice
+/// Cuts the corner patches and strips of `sources` together. In a square of side 2 guard round each lattice
 /// point only the corner patch is shown.
-Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& plan);
+Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& sources);
 
 } // namespace tilepack

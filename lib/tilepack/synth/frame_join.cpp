@@ -6,33 +6,46 @@
 
 namespace tilepack {
 
-Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& plan) {
+namespace {
+
+// The canvas of a strip whose window lies at `place`, its corner patches cut into it.
+SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
+                          SourceTexel place, SourceTexel first, SourceTexel second) {
+  SourceCanvas canvas(axes.width(), axes.height());
+  for (int y = 0; y < canvas.height; ++y)
+    for (int x = 0; x < canvas.width; ++x) canvas.at(x, y) = {place.x + x, place.y + y};
+  for (const End end : {End::first, End::second}) {
+    const SourceTexel start = axes.at(end == End::first ? 0 : axes.length - shape.corner_reach, 0);
+    const SourceTexel extent = axes.at(shape.corner_reach, 2 * shape.reach);
+    LaidPatch patch{{start.x, start.y, extent.x, extent.y},
+                    corner_origin(axes, end == End::first ? first : second, end),
+                    {}};
+    for (int y = 0; y < extent.y; ++y)
+      for (int x = 0; x < extent.x; ++x) {
+        const int along = axes.direction == Direction::horizontal ? x : y;
+        const int from_end = end == End::first ? along : shape.corner_reach - 1 - along;
+        patch.constraints.push_back(from_end < shape.guard ? CutConstraint::take : CutConstraint::free);
+      }
+    lay_patch(image, canvas, patch);
+  }
+  return canvas;
+}
+
+} // namespace
+
+Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& sources) {
   Frame frame;
-  frame.horizontal.resize(plan.horizontal.size());
-  frame.vertical.resize(plan.vertical.size());
-  const std::size_t h = plan.horizontal.size();
-  tbb::parallel_for(std::size_t{0}, h + plan.vertical.size(), [&](std::size_t i) {
+  frame.horizontal.resize(sources.horizontal.size());
+  frame.vertical.resize(sources.vertical.size());
+  const std::size_t h = sources.horizontal.size();
+  const auto corner = [&](int color) { return sources.corners[static_cast<std::size_t>(color)]; };
+  tbb::parallel_for(std::size_t{0}, h + sources.vertical.size(), [&](std::size_t i) {
     const bool horizontal = i < h;
-    const StripAxes space = space_of(shape, horizontal ? Direction::horizontal : Direction::vertical);
-    const SourceTexel place = horizontal ? plan.horizontal[i] : plan.vertical[i - h];
+    const StripAxes axes = axes_of(shape, horizontal ? Direction::horizontal : Direction::vertical);
+    const SourceTexel place = horizontal ? sources.horizontal[i] : sources.vertical[i - h];
     const FrameShape::Strip ends = horizontal ? shape.horizontal[i] : shape.vertical[i - h];
-    SourceCanvas canvas(space.width(), space.height());
-    for (int y = 0; y < canvas.height; ++y)
-      for (int x = 0; x < canvas.width; ++x) canvas.at(x, y) = {place.x + x, place.y + y};
-    for (const bool second : {false, true}) {
-      const SourceTexel corner = plan.corners[static_cast<std::size_t>(second ? ends.second : ends.first)];
-      const SourceTexel start = space.at(second ? space.length - shape.corner_reach : 0, 0);
-      const SourceTexel extent = space.at(shape.corner_reach, 2 * shape.reach);
-      LaidPatch move{{start.x, start.y, extent.x, extent.y}, corner_origin(space, corner, second), {}};
-      for (int y = 0; y < extent.y; ++y)
-        for (int x = 0; x < extent.x; ++x) {
-          const int along = horizontal ? x : y;
-          const int from_end = second ? shape.corner_reach - 1 - along : along;
-          move.freedom.push_back(from_end < shape.guard ? CutConstraint::take : CutConstraint::free);
-        }
-      lay_patch(image, canvas, move);
-    }
-    (horizontal ? frame.horizontal[i] : frame.vertical[i - h]) = std::move(canvas);
+    (horizontal ? frame.horizontal[i] : frame.vertical[i - h]) =
+        joined_strip(image, shape, axes, place, corner(ends.first), corner(ends.second));
   });
   return frame;
 }

@@ -2,33 +2,39 @@
 
 #include "tilepack/error/progress.h"
 #include "tilepack/exemplar/sample_analysis.h"
-#include "tilepack/seam/patch_match.h"
-#include "tilepack/seam/seam_repair.h"
-#include "tilepack/synth/frame_search.h"
-#include "tilepack/synth/interiors.h"
+#include "tilepack/synth/framed_set_settings.h"
 #include "tilepack/synth/synth_options.h"
+#include "tilepack/tileset/source_map.h"
 
 namespace tilepack {
 
-/// All that decides how a framed set is made, apart from what the user asked for.
-struct FramedSetSettings {
-  double reach = 0.125;          ///< half the width of a strip, of the tile's smaller side
-  double corner_reach = 0.1875;  ///< how far corner patches reach along the edges, likewise
-  int smallest_search_tile = 32; ///< frame and insides are searched at the scale at which the tile's smaller
-                                 ///< side is at least this
-  FrameSearchOptions frame;
-  InteriorOptions interiors;
-  SeamRepairOptions repair;       ///< of each strip, and then of each tile
-  PatchMatchOptions coarse_match; ///< at half size, before
-  PatchMatchOptions fine_match;
-};
-
-/// More effort: more starts, more places tried, more mended, longer polishing.
-FramedSetSettings settings_for(int effort, std::uint64_t seed);
-
-/// Construction::framed: chooses a frame, gives every tile its own inside, joins them by cuts, and mends what is
-/// worst. Both colorings; see FrameShape for the construction.
-/// Where tiles hold whole periods of the sample, all parts are kept in step with them.
+/// Construction::framed, the border-first construction of a set: what tiles share is made before any tile is.
+///
+///     1 the frame               2 framed tiles             3 insides                  4 joined, repaired
+///     ●──strip──●──strip──●     ┌───┬─────────┬───┐        ┌───────────────┐          ┌───────────────┐
+///     │         │         │     │ ● │  strip  │ ● │        │               │          │ ● ╱╲ strip ╲ ●│
+///     s         s         s     ├───┘         └───┤        │  a window of  │          │ ╱  closed cut ╲│
+///     │         │         │     │  s   (none)   s │   +    │  the sample   │    →     │ ╲   inside    ╱│
+///     ●──strip──●──strip──●     ├───┐         ┌───┤        │  a tile       │          │ ● ╲ strip ╱  ●│
+///     patches and strips        │ ● │  strip  │ ● │        └───────────────┘          └───────────────┘
+///     of the sample             └───┴─────────┴───┘
+///
+///   1 For each color of lattice point a corner patch and for each color of edge a strip are taken from the
+///     sample, all of them chosen together so that they fit one another and insides can be found for the tiles
+///     (FrameShape, searched_frame). Strips are cut to their corner patches [Kwatra03] (joined_frame) and
+///     repaired, so that what crosses an edge looks right on both sides of it.
+///   2 A tile shows the half of each of its four strips that lies in it (framed_tiles). Neighbours therefore match
+///     at their borders by construction, whatever their insides are.
+///   3 For each tile an own window of the sample is chosen, all tiles together: by how it fits the strips, by how
+///     often the set shows its parts already, and by what the set shows on the whole (chosen_interiors).
+///   4 The window is joined to the strips by one closed minimum cut (join_interiors). The worst patches along the
+///     cuts are replaced (replace_worst_patches [Kwatra03]), and the surroundings of what seams are left are
+///     matched to the sample and voted on (match_and_vote [Barnes09, Wexler07, Kwatra05]). The guard, texels next
+///     to an edge, stays the strip's throughout.
+///
+/// All texels are copies of the sample's. Both colorings. Where tiles hold whole periods of the sample, all parts
+/// are kept in step with them (PeriodAlignment). `options` must be valid (see synthesize); the result depends on
+/// sample, options and settings alone.
 SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
                      const FramedSetSettings& settings, const Progress& progress = {});
 

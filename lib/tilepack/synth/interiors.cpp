@@ -3,6 +3,8 @@
 #include "tilepack/match/use_counts.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/seam/graph_cut.h"
+#include "tilepack/synth/strip_axes.h"
+#include "tilepack/synth/tile_levels.h"
 
 #include <tbb/parallel_for.h>
 
@@ -19,59 +21,13 @@ int distance_to_border(Size tile, int x, int y) {
   return std::min({x, y, tile.width - 1 - x, tile.height - 1 - y});
 }
 
-// What a framed tile shows, and which of its texels show something.
-struct Shown {
-  FeatureImage features;
-  std::vector<std::uint8_t> known;
-};
-
-Shown shown_by(const FeatureImage& image, const FrameShape& shape, const SourceCanvas& canvas) {
-  Shown shown{{canvas.width, canvas.height, image.channels, {}}, {}};
-  shown.features.values.resize(canvas.texels.size() * static_cast<std::size_t>(image.channels));
-  shown.known.resize(canvas.texels.size());
-  for (int y = 0; y < canvas.height; ++y)
-    for (int x = 0; x < canvas.width; ++x) {
-      const std::size_t i = canvas.index(x, y);
-      const SourceTexel s = canvas.texels[i];
-      if (s == no_source || in_guard(shape, x, y)) continue;
-      shown.known[i] = 1;
-      std::copy_n(image.texel(s.x, s.y), image.channels,
-                  shown.features.values.begin() + static_cast<std::ptrdiff_t>(i) * image.channels);
-    }
-  return shown;
-}
-
-Shown halved_shown(const Shown& fine) {
-  Shown coarse{halved(fine.features), {}};
-  for (int y = 0; y < coarse.features.height; ++y)
-    for (int x = 0; x < coarse.features.width; ++x) {
-      const auto known = [&](int i, int j) {
-        return fine.known[static_cast<std::size_t>(2 * y + j) *
-                              static_cast<std::size_t>(fine.features.width) +
-                          static_cast<std::size_t>(2 * x + i)] != 0;
-      };
-      coarse.known.push_back(known(0, 0) && known(1, 0) && known(0, 1) && known(1, 1));
-    }
-  return coarse;
-}
-
-Overlap overlap_of(const Shown& shown) {
-  const FeatureImage& f = shown.features;
-  Overlap overlap(f.width, f.height, f.channels);
-  std::size_t i = 0;
-  for (int y = 0; y < f.height; ++y)
-    for (int x = 0; x < f.width; ++x, ++i)
-      if (shown.known[i]) overlap.add(x, y, f.texel(x, y));
-  return overlap;
-}
-
 struct Choice {
   SourceTexel place;
-  std::int64_t misfit;
+  std::int64_t mismatch;
 };
 
 bool fits_better(const Choice& a, const Choice& b) {
-  return std::tuple(a.misfit, a.place.y, a.place.x) < std::tuple(b.misfit, b.place.y, b.place.x);
+  return std::tuple(a.mismatch, a.place.y, a.place.x) < std::tuple(b.mismatch, b.place.y, b.place.x);
 }
 
 // The best position of each square block of positions, blocks as small as the limit allows.
@@ -87,48 +43,50 @@ std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
       Choice best{{x, y}, map.at(x, y)};
       for (int j = y; j < std::min(map.height, y + block); ++j)
         for (int i = x; i < std::min(map.width, x + block); ++i)
-          if (map.at(i, j) < best.misfit) best = {{i, j}, map.at(i, j)};
-      if (best.misfit != ruled_out) choices.push_back(best);
+          if (map.at(i, j) < best.mismatch) best = {{i, j}, map.at(i, j)};
+      if (best.mismatch != ruled_out) choices.push_back(best);
     }
   return choices;
 }
 
 // What is seen of a strip: cuts run half-way between border and reach.
-Rect shown_part(const FrameShape& shape, SourceTexel strip, bool horizontal) {
+Rect shown_part(const FrameShape& shape, SourceTexel strip, Direction direction) {
   const int shown = shape.reach;
   const int across = shape.reach - shown / 2;
-  return horizontal ? Rect{strip.x, strip.y + across, shape.tile.width, shown}
-                    : Rect{strip.x + across, strip.y, shown, shape.tile.height};
+  return direction == Direction::horizontal ? Rect{strip.x, strip.y + across, shape.tile.width, shown}
+                                            : Rect{strip.x + across, strip.y, shown, shape.tile.height};
 }
 
-void set_prices(const Saliency& deviations, const InteriorOptions& options, int scale, UseCounts& usage) {
+void set_reuse_weights(const Saliency& saliency, double saliency_weight, int scale, UseCounts& counts) {
   constexpr int side = Saliency::side;
-  for (int y = 0; y < deviations.high; ++y)
-    for (int x = 0; x < deviations.wide; ++x) {
-      const double excess = deviations.at(x, y) - striking_deviation;
+  for (int y = 0; y < saliency.high; ++y)
+    for (int x = 0; x < saliency.wide; ++x) {
+      const double excess = saliency.at(x, y) - salient_deviation;
       if (excess <= 0) continue;
-      const int price = 1 + static_cast<int>(std::lround(options.caution * excess));
-      usage.set_reuse_weight({x * side / scale, y * side / scale, side / scale, side / scale}, price);
+      const int weight = 1 + static_cast<int>(std::lround(saliency_weight * excess));
+      counts.set_reuse_weight({x * side / scale, y * side / scale, side / scale, side / scale}, weight);
     }
 }
 
 // A strip counts once, though it is shown in many tiles: whatever the insides are, it is, and an inside that
 // shows it too wastes no more room than one that shows another inside again.
-void add_strips(const FrameShape& shape, const FrameSources& plan, int scale, UseCounts& usage) {
+void add_strips(const FrameShape& shape, const FrameSources& sources, int scale, UseCounts& counts) {
   const auto add = [&](Rect r) {
-    usage.add({r.x / scale, r.y / scale, r.width / scale, r.height / scale}, 1.0);
+    counts.add({r.x / scale, r.y / scale, r.width / scale, r.height / scale}, 1.0);
   };
-  for (const SourceTexel& p : plan.horizontal) add(shown_part(shape, p, true));
-  for (const SourceTexel& p : plan.vertical) add(shown_part(shape, p, false));
+  for (const SourceTexel& p : sources.horizontal) add(shown_part(shape, p, Direction::horizontal));
+  for (const SourceTexel& p : sources.vertical) add(shown_part(shape, p, Direction::vertical));
 }
 
-SampleStatistics::Tally strips_tally(const FrameShape& shape, const FrameSources& plan,
+SampleStatistics::Tally strips_tally(const FrameShape& shape, const FrameSources& sources,
                                      const SampleStatistics& statistics) {
   SampleStatistics::Tally tally = statistics.empty();
-  const double h = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.horizontal.size());
-  const double v = static_cast<double>(shape.tiles.size()) / static_cast<double>(plan.vertical.size());
-  for (const SourceTexel& p : plan.horizontal) statistics.add(tally, shown_part(shape, p, true), h);
-  for (const SourceTexel& p : plan.vertical) statistics.add(tally, shown_part(shape, p, false), v);
+  const double h = static_cast<double>(shape.tiles.size()) / static_cast<double>(sources.horizontal.size());
+  const double v = static_cast<double>(shape.tiles.size()) / static_cast<double>(sources.vertical.size());
+  for (const SourceTexel& p : sources.horizontal)
+    statistics.add(tally, shown_part(shape, p, Direction::horizontal), h);
+  for (const SourceTexel& p : sources.vertical)
+    statistics.add(tally, shown_part(shape, p, Direction::vertical), v);
   return tally;
 }
 
@@ -137,13 +95,14 @@ struct InteriorTask {
   const SampleStatistics& statistics;
   const InteriorOptions& options;
   const std::vector<std::vector<Choice>>& choices; // of each tile, best first
-  UseCounts usage;                                 // of what is placed; strips at first
+  UseCounts counts;                                // of what is placed; strips at first
+  UseTable uses;                                   // the same, prepared
   SampleStatistics::Tally tally;                   // likewise
   Size tile;
-  int inset;                // an inside is shown this far from the borders of its tile
-  int scale;                // texels of the sample to one of the search
-  double average = 0.0;     // how often a part of the sample is shown
-  double all_misfits = 0.0; // the sum of the best of each tile
+  int inset;             // an inside is shown this far from the borders of its tile
+  int scale;             // texels of the sample to one of the search
+  double average;        // how often a part of the sample is shown
+  double all_mismatches; // the sum of the best of each tile
 
   Rect inside(SourceTexel at) const {
     return {at.x + inset, at.y + inset, tile.width - 2 * inset, tile.height - 2 * inset};
@@ -153,41 +112,44 @@ struct InteriorTask {
     return {r.x * scale, r.y * scale, r.width * scale, r.height * scale};
   }
   void place(SourceTexel at, double weight) {
-    usage.add(inside(at), weight);
+    counts.add(inside(at), weight);
     statistics.add(tally, inside_in_sample(at), weight);
-    usage.prepare();
+    uses = prepared(counts);
   }
   // With its own tile not placed.
-  double fit_and_freshness(const Choice& choice) const {
-    return static_cast<double>(choice.misfit) *
-           (1.0 + options.freshness * usage.mean(inside(choice.place)) / average);
+  double fit_and_reuse(const Choice& choice) const {
+    return static_cast<double>(choice.mismatch) *
+           (1.0 + options.reuse_weight * uses.mean(inside(choice.place)) / average);
   }
 };
+
+// By Fisher and Yates; `stream` tells shuffles apart, by at least as much as there are elements.
+void shuffle(std::vector<std::size_t>& order, std::uint64_t seed, std::size_t stream) {
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1],
+              order[random_below(seed, "interior order", stream + i, static_cast<std::uint32_t>(i))]);
+}
 
 // One tile after another takes what is best beside all others, in another order in each round and start.
 InteriorChoice choose_all(InteriorTask task, std::size_t start) {
   const InteriorOptions& options = task.options;
   const std::size_t tiles = task.choices.size();
-  const double likeness = options.likeness * task.all_misfits;
+  const double statistics_weight = options.statistics_weight * task.all_mismatches;
   std::vector<const Choice*> chosen(tiles, nullptr);
   std::vector<std::size_t> order(tiles);
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (int round = 0; round < options.rounds; ++round) {
-    const std::size_t stream =
-        (start * static_cast<std::size_t>(options.rounds) + static_cast<std::size_t>(round)) * tiles;
-    for (std::size_t i = tiles; i > 1; --i)
-      std::swap(
-          order[i - 1],
-          order[random_below(options.seed, "interior order", stream + i, static_cast<std::uint32_t>(i))]);
+    shuffle(order, options.seed,
+            (start * static_cast<std::size_t>(options.rounds) + static_cast<std::size_t>(round)) * tiles);
     for (const std::size_t id : order) {
       if (chosen[id] != nullptr) task.place(chosen[id]->place, -1.0);
       double least = std::numeric_limits<double>::max();
       for (const Choice& choice : task.choices[id]) {
-        if (static_cast<double>(choice.misfit) >= least) break; // nor do those after it cost less
-        double cost = task.fit_and_freshness(choice);
+        if (static_cast<double>(choice.mismatch) >= least) break; // nor do those after it cost less
+        double cost = task.fit_and_reuse(choice);
         if (cost >= least) continue; // spares most of the looks at the statistics, which take longest
-        cost +=
-            likeness * task.statistics.distance_with(task.tally, task.inside_in_sample(choice.place), 1.0);
+        cost += statistics_weight *
+                task.statistics.distance_with(task.tally, task.inside_in_sample(choice.place), 1.0);
         if (cost < least) {
           least = cost;
           chosen[id] = &choice;
@@ -197,14 +159,77 @@ InteriorChoice choose_all(InteriorTask task, std::size_t start) {
     }
   }
   InteriorChoice result;
-  result.cost = likeness * task.statistics.distance(task.tally);
+  result.cost = statistics_weight * task.statistics.distance(task.tally);
   for (const Choice* choice : chosen) {
     task.place(choice->place, -1.0);
-    result.cost += task.fit_and_freshness(*choice);
+    result.cost += task.fit_and_reuse(*choice);
     task.place(choice->place, 1.0);
     result.places.push_back(choice->place);
   }
   return result;
+}
+
+// The places between which each tile chooses, best first.
+std::vector<std::vector<Choice>> listed_choices(const SearchSpace& space, const PeriodAlignment& alignment,
+                                                const std::vector<TileLevels>& tiles,
+                                                const InteriorOptions& options) {
+  const std::size_t limit = std::min(options.choices_per_tile,
+                                     std::max(options.fewest_choices, options.choices_in_all / tiles.size()));
+  std::vector<std::vector<Choice>> choices(tiles.size());
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+    PositionMap map = space.search.mismatches(tiles[id].overlap(space.pyramid.size() - 1));
+    rule_out_of_step(map, alignment, space.scale());
+    choices[id] = block_minima(map, limit);
+    std::sort(choices[id].begin(), choices[id].end(), fits_better);
+  });
+  return choices;
+}
+
+InteriorTask interior_task(const SearchSpace& space, const FrameSources& sources,
+                           const std::vector<std::vector<Choice>>& choices, const InteriorOptions& options) {
+  const SampleStatistics& statistics = space.sample.statistics;
+  const FeatureImage& small = space.small_image();
+  const Size tile = space.small_shape.tile;
+  const int scale = space.scale();
+  const int square = std::max(1, std::min(tile.width, tile.height) / options.use_squares);
+  UseCounts counts(small.width, small.height, square);
+  set_reuse_weights(space.sample.saliency, options.saliency_weight, scale, counts);
+  add_strips(space.shape, sources, scale, counts);
+  double all_mismatches = 0.0;
+  for (const auto& list : choices) all_mismatches += static_cast<double>(list.front().mismatch);
+  return {statistics,
+          options,
+          choices,
+          counts,
+          prepared(counts),
+          strips_tally(space.shape, sources, statistics),
+          tile,
+          std::min(space.shape.reach / 2 / scale, std::min(tile.width, tile.height) / 2 - 1),
+          scale,
+          static_cast<double>(choices.size()) * tile.width * tile.height /
+              (static_cast<double>(small.width) * small.height),
+          all_mismatches};
+}
+
+InteriorChoice best_of_starts(const InteriorTask& task) {
+  const InteriorOptions& options = task.options;
+  std::vector<InteriorChoice> starts(std::clamp<std::size_t>(
+      options.tiles_in_all_starts / task.choices.size(), 1, static_cast<std::size_t>(options.starts)));
+  tbb::parallel_for(std::size_t{0}, starts.size(),
+                    [&](std::size_t start) { starts[start] = choose_all(task, start); });
+  return *std::min_element(starts.begin(), starts.end(),
+                           [](const auto& a, const auto& b) { return a.cost < b.cost; });
+}
+
+// Brings places found in the last level to the first.
+void refine(const SearchSpace& space, const std::vector<TileLevels>& tiles,
+            std::vector<SourceTexel>& places) {
+  constexpr int distance = 2; // the rounding of the level before, and one
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+    for (std::size_t level = space.pyramid.size() - 1; level-- > 0;)
+      places[id] = best_near(space.pyramid[level], tiles[id].overlap(level),
+                             {2 * places[id].x, 2 * places[id].y}, distance);
+  });
 }
 
 } // namespace
@@ -243,60 +268,15 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
   return tiles;
 }
 
-InteriorChoice chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
-                                const SampleAnalysis& sample, const FrameShape& shape,
-                                const FrameSources& plan, const std::vector<SourceCanvas>& framed,
-                                const InteriorOptions& options, const Progress& progress) {
-  const std::size_t tiles = framed.size();
-  const SampleStatistics& statistics = sample.statistics;
-  const FeatureImage& small = pyramid.back();
-  const int levels = static_cast<int>(pyramid.size());
-  const int scale = 1 << (levels - 1);
+InteriorChoice chosen_interiors(const SearchSpace& space, const FrameSources& sources,
+                                const std::vector<SourceCanvas>& framed, const InteriorOptions& options,
+                                const Progress& progress) {
   report(progress, "interiors", 0.0);
-
-  constexpr std::size_t most_choices = 2'500;
-  constexpr std::size_t most_in_all = 1'000'000;
-  const std::size_t limit = std::min(most_choices, std::max<std::size_t>(64, most_in_all / tiles));
-  std::vector<std::vector<Choice>> choices(tiles);
-  tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
-    Shown shown = shown_by(pyramid.front(), shape, framed[id]);
-    for (int level = 1; level < levels; ++level) shown = halved_shown(shown);
-    PositionMap map = search.mismatches(overlap_of(shown));
-    rule_out_of_step(map, plan.phase, scale);
-    choices[id] = block_minima(map, limit);
-    std::sort(choices[id].begin(), choices[id].end(), fits_better);
-  });
+  const std::vector<TileLevels> levels = tile_levels(space, framed);
+  const auto choices = listed_choices(space, sources.alignment, levels, options);
   report(progress, "interiors", 0.5);
-
-  const Size tile{shape.tile.width / scale, shape.tile.height / scale};
-  const int square = std::max(1, std::min(tile.width, tile.height) / 16);
-  InteriorTask task{statistics, options, choices, {small.width, small.height, square}, {}, tile, 0, scale};
-  task.inset = std::min(shape.reach / 2 / scale, std::min(tile.width, tile.height) / 2 - 1);
-  task.average = static_cast<double>(tiles) * tile.width * tile.height /
-                 (static_cast<double>(small.width) * small.height);
-  for (const auto& list : choices) task.all_misfits += static_cast<double>(list.front().misfit);
-  set_prices(sample.deviations, options, scale, task.usage);
-  add_strips(shape, plan, scale, task.usage);
-  task.usage.prepare();
-  task.tally = strips_tally(shape, plan, statistics);
-  // The larger the set, the longer an order takes, and the less one differs from another.
-  constexpr std::size_t most_tiles = 256; // of all starts together
-  std::vector<InteriorChoice> starts(
-      std::clamp<std::size_t>(most_tiles / tiles, 1, static_cast<std::size_t>(options.starts)));
-  tbb::parallel_for(std::size_t{0}, starts.size(),
-                    [&](std::size_t start) { starts[start] = choose_all(task, start); });
-  InteriorChoice best = *std::min_element(starts.begin(), starts.end(),
-                                          [](const auto& a, const auto& b) { return a.cost < b.cost; });
-  std::vector<SourceTexel>& places = best.places;
-
-  tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t id) {
-    std::vector<Shown> shown{shown_by(pyramid.front(), shape, framed[id])};
-    for (int level = 1; level < levels - 1; ++level) shown.push_back(halved_shown(shown.back()));
-    for (int level = levels - 2; level >= 0; --level) {
-      const auto l = static_cast<std::size_t>(level);
-      places[id] = best_near(pyramid[l], overlap_of(shown[l]), {2 * places[id].x, 2 * places[id].y}, 2);
-    }
-  });
+  InteriorChoice best = best_of_starts(interior_task(space, sources, choices, options));
+  refine(space, levels, best.places);
   report(progress, "interiors", 1.0);
   return best;
 }
@@ -306,14 +286,14 @@ void join_interiors(const FeatureImage& image, const FrameShape& shape,
                     std::vector<SourceCanvas>& tiles) {
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
     SourceCanvas& canvas = tiles[id];
-    LaidPatch move{{0, 0, canvas.width, canvas.height}, interiors[id], {}};
-    move.freedom.reserve(canvas.texels.size());
+    LaidPatch patch{{0, 0, canvas.width, canvas.height}, interiors[id], {}};
+    patch.constraints.reserve(canvas.texels.size());
     for (int y = 0; y < canvas.height; ++y)
       for (int x = 0; x < canvas.width; ++x)
-        move.freedom.push_back(canvas.at(x, y) == no_source ? CutConstraint::take
-                               : in_guard(shape, x, y)      ? CutConstraint::keep
-                                                            : CutConstraint::free);
-    lay_patch(image, canvas, move, bias);
+        patch.constraints.push_back(canvas.at(x, y) == no_source ? CutConstraint::take
+                                    : in_guard(shape, x, y)      ? CutConstraint::keep
+                                                                 : CutConstraint::free);
+    lay_patch(image, canvas, patch, bias);
   });
 }
 

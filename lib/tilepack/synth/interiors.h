@@ -1,10 +1,8 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
-#include "tilepack/exemplar/feature_pyramid.h"
-#include "tilepack/exemplar/sample_analysis.h"
-#include "tilepack/match/patch_search.h"
-#include "tilepack/synth/frame.h"
+#include "tilepack/synth/framed_set_settings.h"
+#include "tilepack/synth/search_space.h"
 
 #include <vector>
 
@@ -17,37 +15,26 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
 
 constexpr SourceTexel no_source{-1, -1};
 
-/// How texels of a tile may change once it is framed: those within `guard` of a border never.
+/// Whether a texel lies within `guard` of a border of its tile: it shows the strip in every tile. Also of texels
+/// outside of the tile.
 bool in_guard(const FrameShape& shape, int x, int y);
-
-struct InteriorOptions {
-  std::uint64_t seed = 0;
-  double freshness = 8.0; ///< at f, a part shown as often as the average makes a fit count 1 + f times as bad
-  double likeness = 1500.0; ///< weight of the distance between what the set shows and the sample's statistics
-  double caution = 4.0;     ///< showing a part again that deviates by striking_deviation + d (Saliency)
-                            ///< is 1 + caution · d times as bad
-  int starts = 16;        ///< orders in which tiles choose; the best outcome is taken. Fewer for sets of more
-                          ///< than 16 tiles, 1 beyond 128
-  int rounds = 6;         ///< passes over all tiles
-  std::int64_t bias = 10; ///< see lay_patch
-};
 
 struct InteriorChoice {
   std::vector<SourceTexel> places; ///< of each tile's north-west texel; whole tiles lie inside the sample
-  double cost = 0.0;               ///< by fit, freshness and likeness together, at the scale of the search
+  double cost = 0.0;               ///< by fit, reuse and statistics together, at the scale of the search
 };
 
 /// Chooses a window of the sample for the inside of each tile, all tiles together: by how it fits the tile's
 /// strips, and by how often its parts are shown already by strips and other tiles. What is chosen depends on
 /// the order in which tiles choose, so several orders are tried side by side.
 ///
-/// `search` searches the last level of `pyramid`; its finds are refined in the others.
-InteriorChoice chosen_interiors(const FeaturePyramid& pyramid, const PatchSearch& search,
-                                const SampleAnalysis& sample, const FrameShape& shape,
-                                const FrameSources& plan, const std::vector<SourceCanvas>& framed,
-                                const InteriorOptions& options, const Progress& progress = {});
+/// The choice is made in the last level of the space's pyramid and refined in the others. `sources`: of the
+/// frame, at full size; `framed`: the tiles with it, see framed_tiles.
+InteriorChoice chosen_interiors(const SearchSpace& space, const FrameSources& sources,
+                                const std::vector<SourceCanvas>& framed, const InteriorOptions& options,
+                                const Progress& progress = {});
 
-/// Joins each tile's window to its strips by one closed cut.
+/// Joins each tile's window to its strips by one closed cut; `bias`: see lay_patch.
 void join_interiors(const FeatureImage& image, const FrameShape& shape,
                     const std::vector<SourceTexel>& interiors, std::int64_t bias,
                     std::vector<SourceCanvas>& tiles);

@@ -289,7 +289,7 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources) {
   tbb::parallel_invoke([&] { f.border_mean = rounded(mean_across_borders(image, sources)); },
                        [&] { f.sample_step = rounded(step_of_sample(image)); },
                        [&] { f.histogram_distance = rounded(distance_of(image, analysed.statistics, uses)); },
-                       [&] { report.landmark = most_seen(analysed.deviations, sample, showing, tiles); });
+                       [&] { report.landmark = most_seen(analysed.saliency, sample, showing, tiles); });
   for (const TileFigures& tile : report.tiles) {
     f.in_pieces += tile.in_pieces / tile_number;
     f.fresh += tile.fresh / tile_number;

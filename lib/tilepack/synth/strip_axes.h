@@ -7,6 +7,9 @@ namespace tilepack {
 
 enum class Direction { horizontal, vertical };
 
+/// The two ends of a strip: west and east, or north and south.
+enum class End { first, second };
+
 /// A strip of either direction in one frame of reference: `along` its edge, `across` it.
 struct StripAxes {
   Direction direction = Direction::horizontal;
@@ -21,24 +24,24 @@ struct StripAxes {
   }
 };
 
-StripAxes space_of(const FrameShape& shape, Direction direction);
+StripAxes axes_of(const FrameShape& shape, Direction direction);
 
 inline SourceTexel sum(SourceTexel a, SourceTexel b) {
   return {a.x + b.x, a.y + b.y};
 }
 
-/// Where the corner patch `corner` (see FrameSources) at one of its ends puts the strip's north-west texel, as a
-/// place in the sample.
-SourceTexel corner_origin(const StripAxes& space, SourceTexel corner, bool second);
+/// Where the corner patch `corner` (see FrameSources) at one end puts the strip's north-west texel, as a place in
+/// the sample.
+SourceTexel corner_origin(const StripAxes& axes, SourceTexel corner, End end);
 
 /// Where a strip's window lies in the tile south or east of its edge, in texels of a sample `scale` times as
 /// large.
-inline SourceTexel strip_place(const StripAxes& space, int scale) {
-  return space.at(0, -space.reach * scale);
+inline SourceTexel strip_place(const StripAxes& axes, int scale) {
+  return axes.at(0, -axes.reach * scale);
 }
 
 /// What a strip's window overlaps at its two ends.
-Overlap end_overlap(const FeatureImage& image, const FrameShape& shape, const StripAxes& space,
+Overlap end_overlap(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
                     SourceTexel first, SourceTexel second);
 
 } // namespace tilepack

@@ -9,8 +9,8 @@ namespace tilepack {
 
 /// How the inside of a tile is made.
 enum class Construction {
-  quilt, ///< the plain construction of [Cohen03]: four diamonds, one an edge color, cut along the tile's
-         ///< diagonals
+  quilt,  ///< the plain construction of [Cohen03]: four diamonds, one an edge color, cut along the tile's
+          ///< diagonals
   framed, ///< strips along the edges are shared; each tile's inside is its own window of the sample
 };
 
