@@ -77,13 +77,13 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
                                  pack.tile_size.height, colors_text(pack), name_of(pack.layout.kind));
   for (std::size_t m = 0; m < pack.maps.size(); ++m) {
     const PackedMap& map = pack.maps[m];
-    const Size size = made.map_files[m].front().size;
+    const Size size = made.map_files[m].front().levels.front();
     text += fmt::format("  {:<9} {} x {} texels, {}, {}, {} {}, from {}\n", map.name, size.width, size.height,
-                        counted(made.map_files[m].size(), "level"), counted(map.channels, "channel"),
+                        counted(levels_in(made.map_files[m]), "level"), counted(map.channels, "channel"),
                         name_of(map.depth), name_of(map.encoding), made.map_files[m].front().file);
   }
   if (pack.layout.kind == LayoutKind::rotated) {
-    text += turned_text(pack, made.map_files.front().front().size);
+    text += turned_text(pack, made.map_files.front().front().levels.front());
     for (const PackedMap& map : pack.maps) text += loss_text(map);
   }
   if (pack.corner_pack)

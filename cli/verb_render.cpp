@@ -7,6 +7,7 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/stored_format_for.h"
 #include "tilepack/sampler/render.h"
 
 #include <fmt/format.h>
@@ -99,20 +100,11 @@ VirtualRect default_rect(const Pack& pack, int level) {
 
 // The file format is asked for by the extension; the depth of the map is kept if the format has it.
 RenderTarget target_for(const std::string& file, const PackedMap& map, const std::string& encoding) {
-  const std::string extension = std::filesystem::path(file).extension().string();
-  const bool integers = map.depth == Depth::u8 || map.depth == Depth::u16;
-  RenderTarget target{map.encoding, map.depth};
-  if (extension == ".png") {
-    if (!integers) {
-      target.depth = Depth::u16;
-      if (map.role == Role::color) target.encoding = Encoding::srgb;
-    }
-  } else if (extension == ".exr") {
-    target.encoding = Encoding::linear;
-    if (integers) target.depth = map.depth == Depth::u8 ? Depth::f16 : Depth::f32;
-  } else {
-    throw Error(ErrorKind::usage, "--output", without_ending(file, ".png or .exr"));
-  }
+  const auto container = container_by_name(file);
+  if (!container) throw Error(ErrorKind::usage, "--output", without_ending(file, ".png or .exr"));
+  const StoredFormat format =
+      stored_format_for(map.role, map.encoding, map.depth, {container, {}}, StoredFor::picture);
+  RenderTarget target{format.encoding, format.depth};
   if (encoding == "srgb")
     target.encoding = Encoding::srgb;
   else if (encoding == "linear")

@@ -271,10 +271,11 @@ TEST_CASE("an image that cannot be written leaves nothing and spares the older f
 
   // A limit on file sizes stands for a full disk: the write that crosses it fails.
   for (const Depth depth : {Depth::u8, Depth::f32}) {
-    const fs::path file = folder.path / (std::string("old.") + extension_for(depth));
+    const fs::path file = folder.path / ("old." + std::string(name_of(usual_container(depth))));
     put(file, "older");
-    write_image(folder.path / (std::string("whole.") + extension_for(depth)), image, depth, Encoding::srgb);
-    const auto whole = fs::file_size(folder.path / (std::string("whole.") + extension_for(depth)));
+    write_image(folder.path / ("whole." + std::string(name_of(usual_container(depth)))), image, depth,
+                Encoding::srgb);
+    const auto whole = fs::file_size(folder.path / ("whole." + std::string(name_of(usual_container(depth)))));
     for (const rlim_t limit : {rlim_t{0}, rlim_t{1}, rlim_t{whole / 2}, rlim_t{whole - 1}}) {
       rlimit before{};
       REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);

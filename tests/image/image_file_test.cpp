@@ -42,7 +42,7 @@ TEST_CASE("every depth and channel count comes back exactly, with its header") {
   for (const Depth depth : {Depth::u8, Depth::u16, Depth::f16, Depth::f32})
     for (int channels = 1; channels <= 4; ++channels)
       for (const Size size : {Size{1, 1}, Size{37, 19}, Size{300, 2}}) {
-        const fs::path file = folder.path / (std::string("a.") + extension_for(depth));
+        const fs::path file = folder.path / ("a." + std::string(name_of(usual_container(depth))));
         const Image image = pattern(size, channels, depth);
         write_image(file, image, depth, Encoding::srgb);
         const ImageFile back = read_image(file);
@@ -64,7 +64,7 @@ TEST_CASE("every depth and channel count comes back exactly, with its header") {
 TEST_CASE("bands give the bytes of the whole image, and the same bytes later") {
   const ScratchFolder folder;
   for (const Depth depth : {Depth::u8, Depth::u16, Depth::f16, Depth::f32}) {
-    const std::string dot_extension = std::string(".") + extension_for(depth);
+    const std::string dot_extension = ("." + std::string(name_of(usual_container(depth))));
     const Image image = pattern({61, 45}, 3, depth);
     write_image(folder.path / ("whole" + dot_extension), image, depth, Encoding::linear);
     ImageWriter writer(folder.path / ("bands" + dot_extension), image.size(), 3, depth, Encoding::linear);
@@ -84,7 +84,7 @@ TEST_CASE("bands give the bytes of the whole image, and the same bytes later") {
 TEST_CASE("a file carries nothing of the machine or the hour") {
   const ScratchFolder folder;
   for (const Depth depth : {Depth::u8, Depth::f16}) {
-    const fs::path file = folder.path / (std::string("a.") + extension_for(depth));
+    const fs::path file = folder.path / ("a." + std::string(name_of(usual_container(depth))));
     write_image(file, pattern({4, 4}, 3, depth), depth, Encoding::srgb);
     const std::string bytes = bytes_of(file);
     for (const char* word : {"Software", "DateTime", "tIME", "OpenImageIO", "Host", "/tmp"}) {

@@ -68,7 +68,7 @@ TEST_CASE("files are named after maps and levels", "[pack]") {
   const PackDescription d = described(test::noise_pack(MappingKind::index, Depth::f16));
   CHECK(d.all_files() == std::vector<std::string>{"color_0.png", "color_1.png", "color_2.png", "height_0.exr",
                                                   "height_1.exr", "height_2.exr", "index.png"});
-  CHECK(d.map_files[0][1].size == Size{16, 8});
+  CHECK(d.map_files[0][1] == TextureFile{"color_1.png", {{16, 8}}, 1});
 }
 
 TEST_CASE("every field is needed, and none may be added", "[pack]") {

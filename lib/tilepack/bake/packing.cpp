@@ -8,8 +8,9 @@
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/index_fill.h"
-#include "tilepack/tileset/border_agreement.h"
 #include "tilepack/mip/mip_chain.h"
+#include "tilepack/pack/stored_format_for.h"
+#include "tilepack/tileset/border_agreement.h"
 
 #include <fmt/format.h>
 
@@ -24,10 +25,6 @@ MappingKind mapping_kind(const PackingOptions& o, const TileColors& tiles) {
 }
 
 constexpr int longest_texture_side = 65536;
-
-bool is_integer(Depth depth) {
-  return depth == Depth::u8 || depth == Depth::u16;
-}
 
 void check_layout_fits(const PackingOptions& o, const TileColors& tiles) {
   const bool corner = coloring_of(tiles) == Coloring::corner;
@@ -116,26 +113,14 @@ void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
                             size.height, longest_side, most_cells));
 }
 
-Depth stored_depth(Depth sample, const PackingOptions& options) {
-  if (options.depth) return *options.depth;
-  if (options.format == PackFormat::png && !is_integer(sample)) return Depth::u16;
-  if (options.format == PackFormat::exr && is_integer(sample)) return Depth::f16;
-  return sample;
-}
-
 // Tiles as the pack will store level 0, so that coarser levels are made from what is really there.
-void convert(TileMap& map, Depth depth) {
-  const bool becomes_float = is_integer(map.depth) && !is_integer(depth);
-  const bool becomes_integer = !is_integer(map.depth) && is_integer(depth);
-  Encoding encoding = map.encoding;
-  if (map.role == Role::color && becomes_float) encoding = Encoding::linear;
-  if (map.role == Role::color && becomes_integer) encoding = Encoding::srgb;
+void convert(TileMap& map, const StoredFormat& to) {
   for (Image& tile : map.tiles) {
-    if (encoding != map.encoding) tile = from_linear(to_linear(tile, map.encoding), encoding);
-    if (depth != map.depth) tile = quantised(tile, depth);
+    if (to.encoding != map.encoding) tile = from_linear(to_linear(tile, map.encoding), to.encoding);
+    if (to.depth != map.depth) tile = quantised(tile, to.depth);
   }
-  map.encoding = encoding;
-  map.depth = depth;
+  map.encoding = to.encoding;
+  map.depth = to.depth;
 }
 
 PackedMap described_by(const TileMap& finest) {
@@ -145,7 +130,7 @@ PackedMap described_by(const TileMap& finest) {
 } // namespace
 
 void check_packing(const PackingOptions& options, const TileColors& tiles, Size tile_size) {
-  if (options.format && options.depth && (*options.format == PackFormat::png) != is_integer(*options.depth))
+  if (options.format && options.depth && !holds(*options.format, *options.depth))
     throw Error(
         ErrorKind::usage, "--depth",
         fmt::format("'{}' can't be stored in the format asked for; png holds u8 and u16, exr f16 and f32",
@@ -170,7 +155,9 @@ void check_packing(const PackingOptions& options, const TileColors& tiles, Size 
 
 Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, const Progress& progress) {
   check_packing(options, set.tiles, set.tile_size);
-  for (TileMap& map : set.maps) convert(map, stored_depth(map.depth, options));
+  for (TileMap& map : set.maps)
+    convert(map, stored_format_for(map.role, map.encoding, map.depth, {options.format, options.depth},
+                                   StoredFor::pack));
 
   Pack pack;
   pack.tile_size = set.tile_size;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
+#include "tilepack/image/stored_format.h"
 #include "tilepack/layout/layout_search.h"
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/pack/pack.h"
@@ -12,7 +13,7 @@
 namespace tilepack {
 
 /// The image files a pack may be made of: PNG holds u8 and u16, EXR f16 and f32.
-enum class PackFormat { png, exr };
+using PackFormat = ImageContainer;
 
 /// How a finished tile set becomes a pack, whether synthesized or drawn by hand.
 struct PackingOptions {

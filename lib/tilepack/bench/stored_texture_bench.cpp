@@ -4,8 +4,8 @@
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/image/openimageio_module.h"
-#include "tilepack/sampler/virtual_texture.h"
 #include "tilepack/mip/mip_chain.h"
+#include "tilepack/sampler/virtual_texture.h"
 
 #include <fmt/format.h>
 
@@ -100,8 +100,8 @@ void compare_answers(const TextureLookup& stored, const FastSampler& fast, const
 void write_levels(const std::filesystem::path& folder, const TileMap& finest,
                   const std::vector<TileMap>& coarser) {
   const auto write = [&](const TileMap& level, std::size_t number) {
-    write_image(folder / fmt::format("level_{}.{}", number, extension_for(level.depth)), level.tiles[0],
-                level.depth, level.encoding);
+    write_image(folder / fmt::format("level_{}.{}", number, name_of(usual_container(level.depth))),
+                level.tiles[0], level.depth, level.encoding);
   };
   write(finest, 0);
   for (std::size_t i = 0; i < coarser.size(); ++i) write(coarser[i], i + 1);
@@ -116,7 +116,7 @@ std::vector<BenchRatio> mip_ratios(const Pack& pack, const std::filesystem::path
   const Size size{tiles * pack.tile_size.width, tiles * pack.tile_size.height};
   const PackedMap& map = pack.maps[0];
   const Encoding encoding = map.role == Role::color && map.depth == Depth::u8 ? Encoding::srgb : map.encoding;
-  const std::string image = (folder / ("mips." + std::string(extension_for(map.depth)))).string();
+  const std::string image = (folder / ("mips." + std::string(name_of(usual_container(map.depth))))).string();
   write_image(image, virtual_texture(pack, 0, 0, {0, 0, size.width, size.height}), map.depth, encoding);
   std::vector<double> wall_ratios, processor_ratios, file_ratios, level_ratios;
   for (int round = 0; round < std::min(options.rounds, 3); ++round) {

@@ -2,6 +2,7 @@
 
 #include "tilepack/image/encoding.h"
 #include "tilepack/image/image.h"
+#include "tilepack/image/stored_format.h"
 
 #include <filesystem>
 #include <memory>
@@ -43,22 +44,23 @@ ImageHeader read_image_header(const std::filesystem::path& file);
 /// promises more than the file holds costs nothing.
 ImageFile read_image(const std::filesystem::path& file, std::optional<Encoding> asked = {});
 
-/// The file format written: integers as PNG, floats as EXR. "png" or "exr".
-const char* extension_for(Depth depth);
-
-/// Writes the whole image, rounded to `depth`. The bytes depend on the arguments alone: no date, no host
-/// name, and for any number of threads. `file` must end in extension_for(depth), else Error (usage). The file
+/// Writes the whole image, rounded to the depth of `format`. The bytes depend on the arguments alone: no date, no host
+/// name, and for any number of threads. `file` must end in the name of the container, and the
+/// container must hold the depth, else Error (usage). The file
 /// appears complete or not at all: it is written under a temporary name beside `file` and renamed.
 ///
 /// `srgb` marks a PNG as such. A `linear` PNG carries no mark, since browsers and importers would "correct"
 /// normal maps and data by it: who reads it back must ask for linear. An EXR is linear by definition.
 ///
 /// Throws Error: cannot_write if the folder is missing or read-only or the disk is full.
+void write_image(const std::filesystem::path& file, const Image& image, const StoredFormat& format);
+
+/// The same in the usual container of the depth.
 void write_image(const std::filesystem::path& file, const Image& image, Depth depth, Encoding encoding);
 
 /// The same in bands from top to bottom, for images that do not fit in memory.
 ///
-///   ImageWriter writer(file, size, channels, depth, encoding);
+///   ImageWriter writer(file, size, channels, format);
 ///   while (…) writer.write(band);   // any number of whole rows, width and channels as announced
 ///   writer.finish();                // all rows are there: the file gets its name
 ///
@@ -66,6 +68,7 @@ void write_image(const std::filesystem::path& file, const Image& image, Depth de
 /// programmer's mistake (std::logic_error).
 class ImageWriter {
 public:
+  ImageWriter(const std::filesystem::path& file, Size size, int channels, const StoredFormat& format);
   ImageWriter(const std::filesystem::path& file, Size size, int channels, Depth depth, Encoding encoding);
   ~ImageWriter();
   ImageWriter(ImageWriter&&) noexcept;

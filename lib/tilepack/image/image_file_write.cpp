@@ -17,10 +17,6 @@
 namespace tilepack {
 namespace {
 
-bool is_integer(Depth depth) {
-  return depth == Depth::u8 || depth == Depth::u16;
-}
-
 std::size_t value_bytes_of(Depth depth) {
   return depth == Depth::u8 ? 1 : depth == Depth::f32 ? 4 : 2;
 }
@@ -71,17 +67,17 @@ struct ImageWriter::State {
   int rows_written = 0;
 };
 
-const char* extension_for(Depth depth) {
-  return is_integer(depth) ? "png" : "exr";
-}
-
 ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int channels, Depth depth,
-                         Encoding encoding) {
-  const char* extension = extension_for(depth);
-  if (file.extension() != std::string(".") + extension)
-    throw Error(
-        ErrorKind::usage, file.string(),
-        fmt::format("a {} image is written as .{}; change the name or the depth", name_of(depth), extension));
+                         Encoding encoding)
+    : ImageWriter(file, size, channels, usual_format(depth, encoding)) {}
+
+ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int channels,
+                         const StoredFormat& format) {
+  const Depth depth = format.depth;
+  if (!holds(format.container, depth) || container_by_name(file) != format.container)
+    throw Error(ErrorKind::usage, file.string(),
+                fmt::format("a {} image is written as .{}; change the name or the depth", name_of(depth),
+                            name_of(usual_container(depth))));
   if (channels < 1 || channels > 4 || size.width < 1 || size.height < 1 || size.width > max_image_side ||
       size.height > max_image_side)
     throw Error(
@@ -95,8 +91,8 @@ ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int chann
     staged.write(offset, bytes);
   };
   state->encode([&] {
-    state->writer = is_integer(depth)
-                        ? create_png(sink, size, channels, depth, encoding)
+    state->writer = format.container == ImageContainer::png
+                        ? create_png(sink, size, channels, depth, format.encoding)
                         : static_cast<const ImageFunctions*>(openimageio_symbol("tilepack_image_functions"))
                               ->create_exr(sink, size, channels, depth);
   });
@@ -124,10 +120,14 @@ void ImageWriter::finish() {
   s.file.commit();
 }
 
-void write_image(const std::filesystem::path& file, const Image& image, Depth depth, Encoding encoding) {
-  ImageWriter writer(file, image.size(), image.channels(), depth, encoding);
+void write_image(const std::filesystem::path& file, const Image& image, const StoredFormat& format) {
+  ImageWriter writer(file, image.size(), image.channels(), format);
   writer.write(image);
   writer.finish();
+}
+
+void write_image(const std::filesystem::path& file, const Image& image, Depth depth, Encoding encoding) {
+  write_image(file, image, usual_format(depth, encoding));
 }
 
 } // namespace tilepack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/resample.h"
+#include "tilepack/image/stored_format.h"
 #include "tilepack/layout/layout.h"
 #include "tilepack/mapping/mapping.h"
 #include "tilepack/mip/mip_mode.h"
@@ -40,6 +41,9 @@ struct PackedMap {
   int channels = 0;
   std::vector<Image> levels;
   std::vector<RoundTrip> round_trips = {}; ///< rotated layouts: one a filter, in the order of ResampleFilter
+  std::optional<ImageContainer> container = {}; ///< unset: the usual one of the depth
+
+  StoredFormat stored() const { return {container.value_or(usual_container(depth)), depth, encoding}; }
 };
 
 /// Who made the pack and how, so that it can be made again. No clock and no path.

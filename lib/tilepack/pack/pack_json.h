@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/pack/pack.h"
+#include "tilepack/pack/texture_file.h"
 
 #include <string>
 #include <string_view>
@@ -10,17 +11,10 @@ namespace tilepack {
 
 /// A pack as pack.json alone describes it: everything but the values of its images.
 struct PackDescription {
-  /// The file of one level, relative to the folder of pack.json, and the size it must have.
-  struct LevelFile {
-    std::string file;
-    Size size;
-    bool operator==(const LevelFile&) const = default;
-  };
-
-  Pack pack;                                        ///< levels of its maps and mapping.ids empty
-  std::vector<std::vector<LevelFile>> map_files;    ///< map → level
-  std::vector<std::vector<LevelFile>> corner_files; ///< map of the corner pack → level
-  std::string index_file;                           ///< of an index mapping, else empty
+  Pack pack;                                          ///< levels of its maps and mapping.ids empty
+  std::vector<std::vector<TextureFile>> map_files;    ///< map → its files
+  std::vector<std::vector<TextureFile>> corner_files; ///< map of the corner pack → its files
+  std::string index_file;                             ///< of an index mapping, else empty
 
   /// All of the above, pack.json not counted.
   std::vector<std::string> all_files() const;

@@ -4,11 +4,11 @@
 #include "tilepack/layout/rotated_lattice.h"
 #include "tilepack/layout/surroundings.h"
 #include "tilepack/mapping/even_pattern.h"
+#include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/pack_json.h"
 #include "tilepack/tileset/border_keys.h"
-#include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ constexpr std::int64_t largest_virtual_side = std::int64_t{1} << 31;
 constexpr std::int64_t largest_index_side = 65536;
 constexpr std::int64_t most_index_cells = std::int64_t{1} << 26;
 
-using LevelFiles = std::vector<PackDescription::LevelFile>;
+using LevelFiles = std::vector<TextureFile>;
 
 // The enumerator whose name stands at `value`; `last` ends the enumeration.
 template <typename Enum>
@@ -239,7 +239,7 @@ LevelFiles read_levels(const JsonCursor& list, const Textures& textures, std::se
     if (std::int64_t{size.width} * size.height > most_texels_a_level)
       size_field.fail(
           fmt::format("[{}, {}] is more than {} texels", size.width, size.height, most_texels_a_level));
-    levels.push_back({name, size});
+    levels.push_back({name, {size}});
   }
   return levels;
 }

@@ -1,4 +1,3 @@
-#include "tilepack/image/image_file.h"
 #include "tilepack/json/json_value.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/pack/pack_json.h"
@@ -7,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace tilepack {
 namespace {
@@ -68,20 +68,28 @@ JsonValue layout_json(const Layout& layout, Size tile_size) {
   return json;
 }
 
-using LevelFiles = std::vector<PackDescription::LevelFile>;
+using MapFiles = std::vector<TextureFile>;
 
-JsonValue maps_json(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>& files) {
+// Version 1 of the format knows files of one level and one layer.
+JsonValue levels_json(const MapFiles& files) {
+  JsonValue levels = JsonValue::array();
+  for (const TextureFile& file : files) {
+    if (file.levels.size() != 1 || file.layers != 1)
+      throw std::logic_error("pack.json of version 1 has a file a level");
+    levels.push_back({{"file", file.file}, {"size", size_json(file.levels.front())}});
+  }
+  return levels;
+}
+
+JsonValue maps_json(const std::vector<PackedMap>& maps, const std::vector<MapFiles>& files) {
   JsonValue list = JsonValue::array();
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    JsonValue levels = JsonValue::array();
-    for (const auto& level : files[m])
-      levels.push_back({{"file", level.file}, {"size", size_json(level.size)}});
     list.push_back({{"name", maps[m].name},
                     {"role", name_of(maps[m].role)},
                     {"encoding", name_of(maps[m].encoding)},
                     {"depth", name_of(maps[m].depth)},
                     {"channels", maps[m].channels},
-                    {"levels", std::move(levels)}});
+                    {"levels", levels_json(files[m])}});
     for (const RoundTrip& trip : maps[m].round_trips)
       list.back()["round_trip_psnr"][std::string(name_of(trip.filter))] = trip.psnr;
   }
@@ -141,27 +149,25 @@ JsonValue synthesis_json(const SetFigures& figures) {
   return json;
 }
 
-std::vector<LevelFiles> named_files(const std::vector<PackedMap>& maps, const std::string& prefix) {
-  std::vector<LevelFiles> files;
+std::vector<MapFiles> named_files(const std::vector<PackedMap>& maps, const std::string& prefix) {
+  std::vector<MapFiles> files;
   for (const PackedMap& map : maps) {
-    LevelFiles levels;
-    for (const Image& image : map.levels)
-      levels.push_back({fmt::format("{}{}_{}.{}", prefix, map.name, levels.size(), extension_for(map.depth)),
-                        image.size()});
-    files.push_back(std::move(levels));
+    std::vector<Size> levels;
+    for (const Image& image : map.levels) levels.push_back(image.size());
+    files.push_back(texture_files(prefix + map.name, levels, map.stored().container));
   }
   return files;
 }
 
-void append_files(std::vector<std::string>& list, const std::vector<LevelFiles>& maps) {
-  for (const LevelFiles& levels : maps)
-    for (const auto& level : levels) list.push_back(level.file);
+void append_files(std::vector<std::string>& list, const std::vector<MapFiles>& maps) {
+  for (const MapFiles& files : maps)
+    for (const TextureFile& file : files) list.push_back(file.file);
 }
 
 std::vector<PackedMap> without_levels(const std::vector<PackedMap>& maps) {
   std::vector<PackedMap> bare;
   for (const PackedMap& m : maps)
-    bare.push_back({m.name, m.role, m.encoding, m.depth, m.channels, {}, m.round_trips});
+    bare.push_back({m.name, m.role, m.encoding, m.depth, m.channels, {}, m.round_trips, m.container});
   return bare;
 }
 

@@ -2,8 +2,8 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/image/image_format.h"
 #include "tilepack/pack/file_name.h"
+#include "tilepack/pack/image_header_check.h"
 #include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_json.h"
 
@@ -18,38 +18,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What pack.json announces, against the header of the file: checked before its texels take any memory.
-void check_header(const fs::path& file, Size size, int channels, std::span<const Depth> depths) {
-  check_complete(file, image_format(file)); // a decoder that finds a header cut complains on stderr
-  const ImageHeader header = read_image_header(file);
-  const auto refuse = [&](const std::string& has, const std::string& announced) {
-    throw Error(ErrorKind::invalid_content, file.string(),
-                fmt::format("has {}, and pack.json announces {}", has, announced));
-  };
-  if (header.size != size)
-    refuse(fmt::format("{} x {} texels", header.size.width, header.size.height),
-           fmt::format("{} x {}", size.width, size.height));
-  if (header.channels != channels)
-    refuse(fmt::format("{} channels", header.channels), fmt::format("{}", channels));
-  if (std::find(depths.begin(), depths.end(), header.depth) == depths.end())
-    refuse(fmt::format("depth {}", name_of(header.depth)), std::string(name_of(depths.front())));
-}
-
 struct Load {
   fs::path file;
-  Image* into;
+  std::span<Image> into;
   Encoding encoding;
 };
 
 void plan_maps(std::vector<Load>& loads, std::vector<PackedMap>& maps,
-               const std::vector<std::vector<PackDescription::LevelFile>>& files, const fs::path& folder) {
+               const std::vector<std::vector<TextureFile>>& files, const fs::path& folder) {
   for (std::size_t m = 0; m < maps.size(); ++m) {
     PackedMap& map = maps[m];
-    map.levels.resize(files[m].size());
-    for (std::size_t l = 0; l < files[m].size(); ++l) {
-      const fs::path file = inside_folder(folder, files[m][l].file);
-      check_header(file, files[m][l].size, map.channels, std::span(&map.depth, 1));
-      loads.push_back({file, &map.levels[l], map.encoding});
+    map.levels.resize(static_cast<std::size_t>(levels_in(files[m])));
+    std::span<Image> left(map.levels);
+    for (const TextureFile& texture : files[m]) {
+      const fs::path file = inside_folder(folder, texture.file);
+      check_texture_file(file, texture, map.channels, map.depth);
+      loads.push_back({file, left.first(texture.levels.size()), map.encoding});
+      left = left.subspan(texture.levels.size());
     }
   }
 }
@@ -57,7 +42,7 @@ void plan_maps(std::vector<Load>& loads, std::vector<PackedMap>& maps,
 std::vector<int> read_index_map(const fs::path& file, VirtualSize size, int tiles) {
   const Depth depths[] = {Depth::u8, Depth::u16};
   const Size cells{static_cast<int>(size.width), static_cast<int>(size.height)};
-  check_header(file, cells, 1, depths);
+  check_image_header(file, cells, 1, depths);
   const ImageFile stored = read_image(file, Encoding::linear);
   const float top = stored.depth == Depth::u8 ? 255.0f : 65535.0f;
   std::vector<int> ids;
@@ -99,7 +84,7 @@ Pack read_pack(const fs::path& folder_or_json) {
     pack.mapping.ids = read_index_map(inside_folder(folder, description.index_file), pack.mapping.size,
                                       tile_count(pack.tiles));
   tbb::parallel_for(std::size_t{0}, loads.size(), [&](std::size_t i) {
-    *loads[i].into = read_image(loads[i].file, loads[i].encoding).image;
+    read_texture_file(loads[i].file, loads[i].encoding, loads[i].into);
   });
   return pack;
 }

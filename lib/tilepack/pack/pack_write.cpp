@@ -57,15 +57,20 @@ struct Task {
 };
 
 void plan_maps(std::vector<Task>& tasks, const std::vector<PackedMap>& maps,
-               const std::vector<std::vector<PackDescription::LevelFile>>& files, const fs::path& folder) {
-  for (std::size_t m = 0; m < maps.size(); ++m)
-    for (std::size_t l = 0; l < maps[m].levels.size(); ++l) {
-      const PackedMap& map = maps[m];
-      const Image& image = map.levels[l];
-      tasks.push_back({image.data().size(), [&map, &image, file = folder / files[m][l].file] {
-                         write_image(file, image, map.depth, map.encoding);
+               const std::vector<std::vector<TextureFile>>& files, const fs::path& folder) {
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    const StoredFormat format = maps[m].stored();
+    std::span<const Image> left(maps[m].levels);
+    for (const TextureFile& texture : files[m]) {
+      const auto levels = left.first(texture.levels.size());
+      left = left.subspan(levels.size());
+      std::size_t values = 0;
+      for (const Image& level : levels) values += level.data().size();
+      tasks.push_back({values, [levels, format, path = folder / texture.file] {
+                         write_texture_file(path, levels, format);
                        }});
     }
+  }
 }
 
 Image index_image(const Mapping& mapping, Depth depth) {

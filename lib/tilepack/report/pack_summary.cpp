@@ -1,4 +1,5 @@
 #include "tilepack/report/pack_summary.h"
+
 #include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 namespace tilepack {
 namespace {
 
-using LevelFiles = std::vector<PackDescription::LevelFile>;
+using MapFiles = std::vector<TextureFile>;
 
 constexpr int widest_table = 8; // columns of the layout that still fit a line
 
@@ -25,11 +26,11 @@ int bytes_a_channel(Depth depth) {
   return 4;
 }
 
-std::uint64_t bytes_of(const std::vector<PackedMap>& maps, const std::vector<LevelFiles>& files) {
+std::uint64_t bytes_of(const std::vector<PackedMap>& maps, const std::vector<MapFiles>& files) {
   std::uint64_t bytes = 0;
   for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m)
-    for (const auto& level : files[m])
-      bytes += static_cast<std::uint64_t>(level.size.width) * static_cast<std::uint64_t>(level.size.height) *
+    for (const Size& size : level_sizes(files[m]))
+      bytes += static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) *
                static_cast<std::uint64_t>(maps[m].channels * bytes_a_channel(maps[m].depth));
   return bytes;
 }
@@ -44,10 +45,10 @@ std::string bytes_text(double bytes) {
   return unit == 0 ? fmt::format("{:.0f} B", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
-std::uint64_t file_bytes(const PackSummary& summary, const LevelFiles& files) {
+std::uint64_t file_bytes(const PackSummary& summary, const MapFiles& files) {
   std::uint64_t bytes = 0;
-  for (const auto& level : files) {
-    const auto found = summary.file_bytes.find(level.file);
+  for (const TextureFile& file : files) {
+    const auto found = summary.file_bytes.find(file.file);
     if (found != summary.file_bytes.end()) bytes += found->second;
   }
   return bytes;
@@ -101,19 +102,20 @@ std::string grid_text(const Pack& pack) {
 }
 
 std::string maps_text(const PackSummary& summary, const std::vector<PackedMap>& maps,
-                      const std::vector<LevelFiles>& files) {
+                      const std::vector<MapFiles>& files) {
   const bool turned = summary.description.pack.layout.kind == LayoutKind::rotated;
   std::string text;
   for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
     if (files[m].empty()) continue;
     const PackedMap& map = maps[m];
-    const Size fine = files[m].front().size;
-    const Size coarse = files[m].back().size;
+    const Size fine = files[m].front().levels.front();
+    const Size coarse = files[m].back().levels.back();
+    const int levels = levels_in(files[m]);
     text += fmt::format(
         "          {}: role {}, {}, {} channel{}, {}; {} level{}, {} x {} down to {} x {}; {} in files\n",
         map.name, name_of(map.role), name_of(map.encoding), map.channels, map.channels == 1 ? "" : "s",
-        name_of(map.depth), files[m].size(), files[m].size() == 1 ? "" : "s", fine.width, fine.height,
-        coarse.width, coarse.height, bytes_text(static_cast<double>(file_bytes(summary, files[m]))));
+        name_of(map.depth), levels, levels == 1 ? "" : "s", fine.width, fine.height, coarse.width,
+        coarse.height, bytes_text(static_cast<double>(file_bytes(summary, files[m]))));
     for (const RoundTrip& trip : map.round_trips)
       text += fmt::format(
           "{}{} {}",

@@ -6,7 +6,7 @@
 namespace tilepack {
 namespace {
 
-using LevelFiles = std::vector<PackDescription::LevelFile>;
+using MapFiles = std::vector<TextureFile>;
 
 // What maps are, without their files.
 JsonValue map_json(const PackedMap& map) {
@@ -38,16 +38,17 @@ JsonValue figures_json(const SetFigures& figures) {
 }
 
 JsonValue maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
-                    const std::vector<LevelFiles>& files) {
+               const std::vector<MapFiles>& files) {
   JsonValue list = JsonValue::array();
   for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
     JsonValue levels = JsonValue::array();
-    for (const auto& level : files[m]) {
-      const auto found = summary.file_bytes.find(level.file);
-      levels.push_back(
-          {{"file", level.file},
-           {"size", JsonValue::array({level.size.width, level.size.height})},
-           {"bytes", found == summary.file_bytes.end() ? JsonValue(nullptr) : JsonValue(found->second)}});
+    for (const TextureFile& file : files[m]) {
+      const auto found = summary.file_bytes.find(file.file);
+      for (const Size& size : file.levels)
+        levels.push_back(
+            {{"file", file.file},
+             {"size", JsonValue::array({size.width, size.height})},
+             {"bytes", found == summary.file_bytes.end() ? JsonValue(nullptr) : JsonValue(found->second)}});
     }
     list.push_back(map_json(maps[m]));
     list.back()["levels"] = std::move(levels);
