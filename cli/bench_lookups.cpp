@@ -4,13 +4,13 @@
 #include "output_file.h"
 
 #include "tilepack/bench/bench.h"
-#include "tilepack/bench/stored_texture_bench.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/report/bench_page.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -59,24 +59,13 @@ int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
   if (!a.report.empty()) check_writable(a.report); // before minutes are spent
   const Pack pack = read_pack(a.pack);
   const int map = map_number(pack, a.map);
-  const Progress progress = console.progress();
   BenchOptions options;
   options.rounds = a.quick ? 1 : a.rounds;
   options.large = !a.quick;
-
-  Bench bench;
-  bench.pack = fs::path(a.pack).filename().string();
-  bench.map = pack.maps[static_cast<std::size_t>(map)].name;
-  bench.target = fast_sampler_targets().front();
-  bench.mips = mip_mode_errors(pack, map, a.lookups, options.seed, progress);
-  bench.corners = corner_pictures(pack, map, std::min(2, pack.tile_levels - 1));
-  bench.coordinates = coordinate_errors(pack, map, options.seed);
-  bench.stress_lookups = stress_lookups();
-  bench.lookups = bench_lookups(pack, map, options, progress);
-  if (options.large) {
-    const ScratchFolder scratch;
-    bench.stored = bench_stored_texture(pack, map, scratch.path, options, progress);
-  }
+  std::optional<ScratchFolder> scratch;
+  if (options.large) scratch.emplace();
+  const Bench bench = measured_bench(pack, map, fs::path(a.pack).filename().string(), a.lookups, options,
+                                     scratch ? scratch->path : fs::path(), console.progress());
   if (!a.report.empty()) write_text_file(a.report, bench_page(bench));
   console.print(a.format == "json"  ? bench_json(bench)
                 : a.format == "csv" ? bench_csv(bench)

@@ -1,10 +1,15 @@
 #include "bench_lookups.h"
-#include "bench_spans.h"
 #include "jobs.h"
+#include "output_file.h"
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bench/span_bench.h"
+#include "tilepack/pack/pack_read.h"
+#include "tilepack/report/span_bench_page.h"
+
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace tilepack::cli {
@@ -15,14 +20,23 @@ struct BenchArguments {
   LookupBenchArguments of_lookups;
 };
 
+int bench_spans(const LookupBenchArguments& a, Console& console) {
+  check_page_name({"--report", a.report});
+  if (!a.report.empty()) check_writable(a.report); // before the measurements
+  std::optional<Pack> pack;
+  if (!a.pack.empty()) pack = read_pack(a.pack);
+  const SpanBench bench = span_bench(pack ? &*pack : nullptr, a.quick, console.progress());
+  if (!a.report.empty()) write_text_file(a.report, span_bench_page(bench));
+  console.print(a.format == "json" ? span_bench_json(bench) : span_bench_text(bench));
+  return 0;
+}
+
 int run_bench(const BenchArguments& a, Console& console) {
   const std::string& format = a.of_lookups.format;
   if (format != "text" && format != "json" && (format != "csv" || a.spans))
     throw Error(ErrorKind::usage, "--format",
                 "'" + format + "' is not there; it is text or json, or csv for lookups");
-  if (a.spans)
-    return bench_spans({a.of_lookups.pack, a.of_lookups.report, a.of_lookups.format, a.of_lookups.quick},
-                       console);
+  if (a.spans) return bench_spans(a.of_lookups, console);
   if (a.of_lookups.pack.empty())
     throw Error(ErrorKind::usage, "PACK", "is missing; only --spans can do without");
   return bench_lookups_of(a.of_lookups, console);

@@ -1,4 +1,3 @@
-#include "inspect_mapping.h"
 #include "output_file.h"
 #include "value_check.h"
 #include "verb.h"
@@ -8,6 +7,7 @@
 #include "tilepack/mapping/index_json.h"
 #include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/report/mapping_picture.h"
 #include "tilepack/report/pack_picture.h"
 #include "tilepack/report/pack_summary.h"
 
@@ -75,8 +75,10 @@ void write_drawing(const OutputFile& output, const VectorDrawing& drawing) {
 int run_inspect_mapping(const InspectArguments& arguments, Console& console) {
   check_outputs_of(arguments);
   const Pack pack = read_pack(arguments.pack);
-  if (!arguments.picture.empty()) write_drawing({"--picture", arguments.picture}, mapping_drawing(pack));
-  console.print(mapping_report(pack, arguments.format));
+  const auto survey = mapping_survey(pack.mapping, pack.colors, pack.generator.seed);
+  if (!arguments.picture.empty())
+    write_drawing({"--picture", arguments.picture}, mapping_survey_picture(survey, pack.colors));
+  console.print(arguments.format == "json" ? survey_json(survey) : survey_text(survey));
   return 0;
 }
 

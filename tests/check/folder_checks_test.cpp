@@ -26,7 +26,7 @@ public:
   explicit PackFolder(const Pack& pack = good_pack()) {
     static int number = 0;
     root = fs::temp_directory_path() /
-           ("tilepack_verify_" + std::to_string(getpid()) + "_" + std::to_string(number++));
+           ("tilepack_check_" + std::to_string(getpid()) + "_" + std::to_string(number++));
     fs::create_directories(root);
     write_pack(pack, folder());
   }

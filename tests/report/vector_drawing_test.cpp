@@ -72,19 +72,20 @@ TEST_CASE("each digit has its own look, and stands in the middle") {
   }
 }
 
-TEST_CASE("words are written in letters that differ, and what has no letter leaves a gap") {
+TEST_CASE("words are written in letters that differ, and what has no letter is a box") {
   const auto written = [](const std::string& word) {
     VectorDrawing drawing = blank(9, 9);
     drawing.words.push_back({{4.5, 4.5}, 7, word, red});
     return rasterised(drawing);
   };
-  const std::string letters = "ackimpx";
+  const std::string letters(drawn_characters);
   for (const char letter : letters) {
     CHECK(sum_of_red(written({letter})) > 5);
     for (const char other : letters)
       if (letter != other) CHECK(written({letter}) != written({other}));
   }
-  CHECK(sum_of_red(written("?")) == 0);
+  CHECK(sum_of_red(written("?")) == 2 * 5 + 2 * 5);
+  CHECK(written("?") == written("z"));
   VectorDrawing drawing = blank(2, 2);
   drawing.words.push_back({{1, 1}, 7, "mix", red});
   CHECK(svg(drawing).find(">mix</text>") != std::string::npos);

@@ -1,11 +1,12 @@
 #include "tilepack/bench/bench.h"
 
 #include "tilepack/bake/packing.h"
+#include "tilepack/bench/stored_texture_bench.h"
+#include "tilepack/mip/level_size.h"
+#include "tilepack/mip/mip_chain.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/sampler/ground_truth.h"
 #include "tilepack/sampler/reference_sampler.h"
-#include "tilepack/mip/mip_chain.h"
-#include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
 
@@ -150,57 +151,29 @@ std::vector<MipSummary> mip_summaries(const Bench& bench) {
     const auto rms = [&](std::size_t figure) {
       return counts[figure] > 0 ? std::sqrt(squares[figure] / counts[figure]) : 0.0;
     };
-    summaries.push_back({errors.mips, rms(0), rms(1), rms(2),
+    const std::size_t number = summaries.size(); // the pack as it is comes first
+    const auto mode = number == 0 ? std::nullopt : std::optional(modes[number - 1]);
+    summaries.push_back({errors.mips, mode, rms(0), rms(1), rms(2),
                          std::sqrt(rms(0) * rms(0) + rms(1) * rms(1) + rms(2) * rms(2))});
   }
   return summaries;
 }
 
-std::vector<std::string> advice(const Bench& bench) {
-  std::vector<std::string> lines;
-  const std::vector<MipSummary> mips = mip_summaries(bench);
-  const auto least_by = [&](double MipSummary::*figure) -> const MipSummary& {
-    return *std::min_element(mips.begin() + 1, mips.end(),
-                             [&](const auto& a, const auto& b) { return a.*figure < b.*figure; });
-  };
-  if (mips.size() > 1) {
-    const MipSummary& best = least_by(&MipSummary::together);
-    lines.push_back(
-        fmt::format("Mips: choose '{}': error inside tiles {:.2f}, at borders {:.2f}, jump across them "
-                    "{:.2f}, the least together.",
-                    best.mips, best.interior, best.border, best.jump));
-    const MipSummary& nearest = least_by(&MipSummary::border);
-    const MipSummary& smoothest = least_by(&MipSummary::jump);
-    lines.push_back(
-        fmt::format("Mips otherwise: '{}' is nearest to the true mips at borders ({:.2f}), '{}' jumps "
-                    "least across them ({:.2f}).",
-                    nearest.mips, nearest.border, smoothest.mips, smoothest.jump));
-  }
-  // Lookups: the fastest whose error is within a tenth of an 8-bit unit of the least of its filter.
-  for (const char* filter : {"bilinear", "trilinear"}) {
-    const LookupCost* chosen = nullptr;
-    double least = INFINITY;
-    for (const LookupCost& cost : bench.lookups.costs)
-      if (cost.filter == filter && cost.sampler == "fast") least = std::min(least, cost.rms_truth);
-    for (const LookupCost& cost : bench.lookups.costs)
-      if (cost.filter == filter && cost.sampler == "fast" && cost.rms_truth <= least + 0.1 &&
-          (chosen == nullptr || cost.nanoseconds < chosen->nanoseconds))
-        chosen = &cost;
-    if (chosen != nullptr)
-      lines.push_back(
-          fmt::format("Lookups, {}: '{}' mapping with {} weights, {:.1f} ns a sample, {:.2f} RMS from the "
-                      "truth.",
-                      filter, chosen->mapping, chosen->weights, chosen->nanoseconds, chosen->rms_truth));
-  }
-  for (const CoordinateError& error : bench.coordinates)
-    if (error.as_float > 0.5) {
-      lines.push_back(fmt::format(
-          "Coordinates: a plain float is off by more than half an 8-bit unit from 2^{} texels on; "
-          "tile + fraction never is.",
-          error.log2_texels));
-      break;
-    }
-  return lines;
+Bench measured_bench(const Pack& pack, int map, const std::string& name, int lookups,
+                     const BenchOptions& options, const std::filesystem::path& folder,
+                     const Progress& progress) {
+  Bench bench;
+  bench.pack = name;
+  bench.map = pack.maps[static_cast<std::size_t>(map)].name;
+  bench.mapping = pack.mapping.kind;
+  bench.target = fast_sampler_targets().front();
+  bench.mips = mip_mode_errors(pack, map, lookups, options.seed, progress);
+  bench.corners = corner_pictures(pack, map, std::min(2, pack.tile_levels - 1));
+  bench.coordinates = coordinate_errors(pack, map, options.seed);
+  bench.stress_lookups = stress_lookups();
+  bench.lookups = bench_lookups(pack, map, options, progress);
+  if (options.large) bench.stored = bench_stored_texture(pack, map, folder, options, progress);
+  return bench;
 }
 
 } // namespace tilepack

@@ -4,6 +4,8 @@
 #include "tilepack/bench/stress_lookups.h"
 #include "tilepack/measure/against_reference.h"
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +36,9 @@ struct CornerPicture {
 struct Bench {
   std::string pack; ///< as the user named it
   std::string map;
-  std::string target;                ///< best instruction set here
-  std::vector<ReferenceErrors> mips; ///< the pack as it is, then with its levels made anew in each mode
+  MappingKind mapping = MappingKind::mix; ///< the pack's own
+  std::string target;                     ///< best instruction set here
+  std::vector<ReferenceErrors> mips;      ///< the pack as it is, then with its levels made anew in each mode
   std::vector<CornerPicture> corners;
   LookupBench lookups;
   std::vector<BenchRatio> stored; ///< against OpenImageIO; empty if not asked for
@@ -51,22 +54,29 @@ std::vector<CornerPicture> corner_pictures(const Pack& pack, int map, int level)
 /// A mip mode in one line: RMS over levels 1 and up, 8-bit units of the encoded value.
 struct MipSummary {
   std::string mips;
-  double interior = 0; ///< error inside tiles
-  double border = 0;   ///< error at edges and corners
-  double jump = 0;     ///< across borders
+  std::optional<MipMode> mode; ///< absent: as stored
+  double interior = 0;         ///< error inside tiles
+  double border = 0;           ///< error at edges and corners
+  double jump = 0;             ///< across borders
   /// What to go by where nothing else decides: the root of the sum of the three squares.
   double together = 0;
 };
 std::vector<MipSummary> mip_summaries(const Bench& bench);
 
-/// What to choose, one sentence a line: from the figures, by fixed rules.
+/// What to choose, one sentence a line: from the figures, by fixed rules. What wins by less than the noise is
+/// a tie, and a tie goes to the default (mips) or to what the pack has (lookups), so that two runs advise the
+/// same.
 std::vector<std::string> advice(const Bench& bench);
+
+/// Measures all of one map of a pack. `name` is how the pack is called; `lookups` places a zone and level give
+/// the errors of mips. Textures to compare with are stored in `folder`, about 400 MB, which must exist and is
+/// left to the caller to remove; they are left out where options.large is false.
+Bench measured_bench(const Pack& pack, int map, const std::string& name, int lookups,
+                     const BenchOptions& options, const std::filesystem::path& folder,
+                     const Progress& progress = {});
 
 std::string bench_text(const Bench& bench);
 std::string bench_json(const Bench& bench);
 std::string bench_csv(const Bench& bench); ///< section,name,value: one line a figure
-
-/// One page with all figures and plots in it (SVG, no scripts, nothing fetched).
-std::string bench_page(const Bench& bench);
 
 } // namespace tilepack

@@ -29,9 +29,10 @@ std::string bench_text(const Bench& bench) {
           "rms: against the ground truth, 8-bit units)\n"
           "  sampler    mapping      corners      filter     weights  ns/sample   M/s       off      rms\n";
   for (const LookupCost& c : bench.lookups.costs)
-    text += fmt::format("  {:<10} {:<12} {:<12} {:<10} {:<7} {:>10.2f} {:>6.1f} {:>9.5f} {:>8.3f}\n",
-                        c.sampler, c.mapping, c.corners, c.filter, c.weights, c.nanoseconds,
-                        1000 / c.nanoseconds, c.off_reference, c.rms_truth);
+    text +=
+        fmt::format("  {:<10} {:<12} {:<12} {:<10} {:<7} {:>10.2f} {:>6.1f} {:>9.5f} {:>8.3f}\n",
+                    name_of(c.sampler), name_of(c.mapping), corners_of(c), name_of(c.filter),
+                    name_of(c.weights), c.nanoseconds, 1000 / c.nanoseconds, c.off_reference, c.rms_truth);
   text += "\nRatios (medians of rounds run in turn)\n";
   for (const BenchRatio& r : all_ratios(bench))
     text += fmt::format(
@@ -53,12 +54,12 @@ std::string bench_text(const Bench& bench) {
 std::string bench_json(const Bench& bench) {
   JsonValue costs = JsonValue::array();
   for (const LookupCost& c : bench.lookups.costs)
-    costs.push_back({{"sampler", c.sampler},
+    costs.push_back({{"sampler", name_of(c.sampler)},
                      {"target", c.target},
-                     {"mapping", c.mapping},
-                     {"corners", c.corners},
-                     {"filter", c.filter},
-                     {"weights", c.weights},
+                     {"mapping", name_of(c.mapping)},
+                     {"corners", corners_of(c)},
+                     {"filter", name_of(c.filter)},
+                     {"weights", name_of(c.weights)},
                      {"nanoseconds", c.nanoseconds},
                      {"off_reference", c.off_reference},
                      {"rms_truth", c.rms_truth}});
@@ -110,8 +111,8 @@ std::string bench_csv(const Bench& bench) {
     text += fmt::format("{},\"{}\",{:.6g}\n", section, name, value);
   };
   for (const LookupCost& c : bench.lookups.costs) {
-    const std::string name =
-        fmt::format("{} {} {} {} {}", c.sampler, c.mapping, c.corners, c.filter, c.weights);
+    const std::string name = fmt::format("{} {} {} {} {}", name_of(c.sampler), name_of(c.mapping),
+                                         corners_of(c), name_of(c.filter), name_of(c.weights));
     line("nanoseconds", name, c.nanoseconds);
     line("off_reference", name, c.off_reference);
     line("rms_truth", name, c.rms_truth);

@@ -1,11 +1,12 @@
 #include "tilepack/bench/lookup_bench.h"
 
+#include "tilepack/bench/timing.h"
 #include "tilepack/error/error.h"
 #include "tilepack/mapping/even_pattern.h"
+#include "tilepack/mip/level_size.h"
 #include "tilepack/sampler/ground_truth.h"
 #include "tilepack/sampler/reference_sampler.h"
 #include "tilepack/sampler/virtual_texture.h"
-#include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -14,9 +15,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 
 namespace tilepack {
 namespace {
@@ -105,13 +104,13 @@ void check_answer(const Pack& pack, int map, const FastSampler& fast, const Look
   const double allowed = (weights == Weights::exact ? 0.25 : 2.0) * full_scale;
   if (cost.off_reference > allowed)
     throw Error(
-        ErrorKind::check_failed, cost.mapping + " " + cost.filter,
+        ErrorKind::check_failed, fmt::format("{} {}", name_of(cost.mapping), name_of(cost.filter)),
         fmt::format("the fast sampler is off by {:.3f} of 255, more than {}; this is a fault of tilepack",
                     cost.off_reference, allowed));
 }
 
-std::string corners_of(const Pack& pack) {
-  return pack.corner_pack ? "corner pack" : "tiles alone";
+BenchFilter bench_filter(Filter filter) {
+  return filter == Filter::bilinear ? BenchFilter::bilinear : BenchFilter::trilinear;
 }
 
 void bench_configurations(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
@@ -128,15 +127,12 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
     samplers.emplace_back(with, map);
     for (const Filter filter : {Filter::bilinear, Filter::trilinear})
       for (const Weights weights : {Weights::exact, Weights::fixed_8_8}) {
-        LookupCost cost{"fast",
-                        best,
-                        std::string(name_of(kind)),
-                        corners_of(with),
-                        std::string(name_of(filter)),
-                        weights == Weights::exact ? "float" : "8.8",
-                        0,
-                        0,
-                        0};
+        LookupCost cost;
+        cost.target = best;
+        cost.mapping = kind;
+        cost.corner_pack = with.corner_pack.has_value();
+        cost.filter = bench_filter(filter);
+        cost.weights = weights == Weights::exact ? BenchWeights::single : BenchWeights::fixed_8_8;
         check_answer(with, map, samplers.back(), frame, filter, weights, cost);
         bench.costs.push_back(cost);
         const std::size_t number = samplers.size() - 1;
@@ -150,8 +146,11 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
     bench_kind(kind, false);
     if (pack.corner_pack) bench_kind(kind, true);
   }
-  const auto times = in_turn(runs, options.rounds, samples_a_frame);
-  for (std::size_t i = 0; i < times.size(); ++i) bench.costs[i].nanoseconds = median(times[i]);
+  const auto times = in_turn(runs, {options.rounds}, samples_a_frame);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    bench.costs[i].nanoseconds = median(times[i]);
+    bench.costs[i].noise = quartile_spread(times[i]);
+  }
 }
 
 void bench_reference(const Pack& pack, int map, const BenchOptions& options, const LookupFrame& frame,
@@ -166,11 +165,13 @@ void bench_reference(const Pack& pack, int map, const BenchOptions& options, con
                         step * std::sin(frame.angle) / pack.tile_size.height,
                         -step * std::sin(frame.angle) / pack.tile_size.width,
                         step * std::cos(frame.angle) / pack.tile_size.height};
-  for (const std::string filter_name : {"bilinear", "trilinear", "elliptical"}) {
-    const std::optional<Filter> filter = filter_named(filter_name);
-    LookupCost cost{
-        "reference", "", std::string(name_of(pack.mapping.kind)), corners_of(pack), filter_name, "double", 0,
-        0,           0};
+  for (const BenchFilter filter : {BenchFilter::bilinear, BenchFilter::trilinear, BenchFilter::elliptical}) {
+    LookupCost cost;
+    cost.sampler = BenchSampler::reference;
+    cost.mapping = pack.mapping.kind;
+    cost.corner_pack = pack.corner_pack.has_value();
+    cost.filter = filter;
+    cost.weights = BenchWeights::wide;
     std::array<double, 4> got{};
     std::array<double, 4> ideal{};
     double squares = 0;
@@ -181,10 +182,12 @@ void bench_reference(const Pack& pack, int map, const BenchOptions& options, con
         const TileCoordinate y{frame.tile_y[i], static_cast<double>(frame.y[i])};
         const auto level = static_cast<double>(frame.level[i]);
         const auto look_up = [&](const auto& sampler, std::array<double, 4>& value) {
-          if (filter)
-            sampler.sample(x, y, level, *filter, {value.data(), channels});
-          else
+          if (filter == BenchFilter::elliptical)
             sampler.sample(x, y, pixel, {value.data(), channels});
+          else
+            sampler.sample(x, y, level,
+                           filter == BenchFilter::bilinear ? Filter::bilinear : Filter::trilinear,
+                           {value.data(), channels});
         };
         look_up(reference, got);
         if (!compare) continue;
@@ -199,7 +202,7 @@ void bench_reference(const Pack& pack, int map, const BenchOptions& options, con
     run(true);
     cost.rms_truth = std::sqrt(squares / count);
     const auto sampled = static_cast<double>((frame.x.size() + checked_every - 1) / checked_every);
-    cost.nanoseconds = median(in_turn({[&] { run(false); }}, options.rounds, sampled)[0]);
+    cost.nanoseconds = median(in_turn({[&] { run(false); }}, {options.rounds}, sampled)[0]);
     bench.costs.push_back(cost);
   }
 }
@@ -219,7 +222,7 @@ void bench_against_plain(const Pack& pack, int map, const BenchOptions& options,
     const FastSampler tiled(with, map);
     const auto times = in_turn({[&] { look_up_frame(plain, whole, Filter::trilinear, Weights::exact, out); },
                                 [&] { look_up_frame(tiled, frame, Filter::trilinear, Weights::exact, out); }},
-                               options.rounds, samples_a_frame);
+                               {options.rounds}, samples_a_frame);
     std::vector<double> ratios;
     for (std::size_t r = 0; r < times[0].size(); ++r) ratios.push_back(times[0][r] / times[1][r]);
     bench.ratios.push_back(
@@ -337,7 +340,7 @@ void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupB
           over_whole_texture(coherent_frame(0, 0, pack.tile_size.width), tiles, tiles));
       size.stored = 0;
     }
-  const auto times = in_turn(runs, options.rounds, samples_a_frame);
+  const auto times = in_turn(runs, {options.rounds}, samples_a_frame);
   // The least time of a size is what it costs; what else the machine does only adds to it.
   double least = INFINITY;
   double most = 0;
@@ -357,6 +360,38 @@ void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupB
 }
 
 } // namespace
+
+std::string_view name_of(BenchSampler sampler) {
+  return sampler == BenchSampler::fast ? "fast" : "reference";
+}
+
+std::string_view name_of(BenchFilter filter) {
+  switch (filter) {
+  case BenchFilter::bilinear:
+    return "bilinear";
+  case BenchFilter::trilinear:
+    return "trilinear";
+  case BenchFilter::elliptical:
+    break;
+  }
+  return "elliptical";
+}
+
+std::string_view name_of(BenchWeights weights) {
+  switch (weights) {
+  case BenchWeights::single:
+    return "float";
+  case BenchWeights::fixed_8_8:
+    return "8.8";
+  case BenchWeights::wide:
+    break;
+  }
+  return "double";
+}
+
+std::string_view corners_of(const LookupCost& cost) {
+  return cost.corner_pack ? "corner pack" : "tiles alone";
+}
 
 LookupFrame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side) {
   LookupFrame frame;
@@ -378,37 +413,6 @@ LookupFrame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_si
   frame.tile_y.assign(frame.x.size(), tile_y);
   frame.level.assign(frame.x.size(), static_cast<float>(std::log2(frame.texels_a_pixel)));
   return frame;
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-BenchTime bench_time() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
-          static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec)};
-}
-
-std::vector<std::vector<double>> in_turn(const std::vector<std::function<void()>>& lookups, int rounds,
-                                         double samples) {
-  std::vector<std::vector<double>> times(lookups.size());
-  for (int round = -1; round < rounds; ++round)
-    for (std::size_t i = 0; i < lookups.size(); ++i) {
-      const double start = thread_seconds();
-      lookups[i]();
-      if (round >= 0) times[i].push_back(1e9 * (thread_seconds() - start) / samples);
-    }
-  return times;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 LookupBench bench_lookups(const Pack& pack, int map, const BenchOptions& options, const Progress& progress) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tilepack {
@@ -27,34 +28,32 @@ struct LookupFrame {
 /// Starting at a tile; `tile_side` texels a tile at level 0.
 LookupFrame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_side);
 
-/// Processor time of this thread, seconds: what other programs take away doesn't count.
-double thread_seconds();
-
-/// By the clock on the wall, and processor time of all threads of this program; seconds from some start.
-struct BenchTime {
-  double wall = 0;
-  double processor = 0;
+enum class BenchSampler { fast, reference };
+enum class BenchFilter { bilinear, trilinear, elliptical }; ///< elliptical: reference sampler only
+/// What filter weights are held in.
+enum class BenchWeights {
+  single,    ///< float
+  fixed_8_8, ///< 8 bits, as graphics hardware has them
+  wide,      ///< double: the reference sampler
 };
-BenchTime bench_time();
-
-/// Nanoseconds a sample that each of `lookups` takes over a frame: run in turn, `rounds` times after one
-/// round unmeasured. [lookup][round]; ratios and medians are taken from rounds, not from different times.
-std::vector<std::vector<double>> in_turn(const std::vector<std::function<void()>>& lookups, int rounds,
-                                         double samples);
-double median(std::vector<double> values);
+std::string_view name_of(BenchSampler sampler); ///< "fast", "reference"
+std::string_view name_of(BenchFilter filter);
+std::string_view name_of(BenchWeights weights); ///< "float", "8.8", "double"
 
 /// One way to look the pack up, what it costs and how far off it is.
 struct LookupCost {
-  std::string sampler; ///< "fast" or "reference"
-  std::string target;  ///< instruction set
-  std::string mapping;
-  std::string corners; ///< how they are handled: "tiles alone", or "corner pack" where the pack has one
-  std::string filter;
-  std::string weights;      ///< "float", "8.8", "double"
+  BenchSampler sampler = BenchSampler::fast;
+  std::string target; ///< instruction set
+  MappingKind mapping = MappingKind::mix;
+  bool corner_pack = false; ///< corners are looked up in it; else tiles alone
+  BenchFilter filter = BenchFilter::bilinear;
+  BenchWeights weights = BenchWeights::single;
   double nanoseconds = 0;   ///< a sample, one thread, median
   double off_reference = 0; ///< largest difference from the reference sampler, 8-bit units of linear light
   double rms_truth = 0;     ///< RMS against the ground truth, 8-bit units of the encoded value
+  double noise = 0;         ///< quartile_spread() of the rounds
 };
+std::string_view corners_of(const LookupCost& cost); ///< "corner pack", "tiles alone"
 
 /// A measured figure and what it is held to, if anything.
 struct BenchRatio {

@@ -155,21 +155,21 @@ ErrorCurve curve(const std::string& name, int count, double d, const Advance32& 
 } // namespace
 
 std::vector<SpanCase> span_cases() {
-  const auto with = [](const std::string& name, int count, double behind) {
+  const auto with = [](SpanShape shape, const std::string& name, int count, double behind) {
     Span span;
     span.count = count;
     span.du = 1.0 / tile_side;
     span.dv = -0.3 / tile_side;
     span.bend = 1 / (count - 1 + behind);
-    return SpanCase{name, span};
+    return SpanCase{shape, name, span};
   };
-  return {with("nearly straight: horizon 10^6 pixels behind the last", 1920, 1e6),
-          with("mild: one span behind", 1920, 1920),
-          with("steep: 100 pixels behind", 1920, 100),
-          with("grazing: 5 pixels behind", 1920, 5),
-          with("horizon inside the last pixel: 0.01 behind", 1920, 0.01),
-          with("the example of [Cou]: 101 pixels, 20 behind", 101, 20),
-          with("long: 16384 pixels, 1000 behind", 16384, 1000)};
+  return {with(SpanShape::nearly_straight, "nearly straight: horizon 10^6 pixels behind the last", 1920, 1e6),
+          with(SpanShape::mild, "mild: one span behind", 1920, 1920),
+          with(SpanShape::steep, "steep: 100 pixels behind", 1920, 100),
+          with(SpanShape::grazing, "grazing: 5 pixels behind", 1920, 5),
+          with(SpanShape::horizon_inside, "horizon inside the last pixel: 0.01 behind", 1920, 0.01),
+          with(SpanShape::from_the_paper, "the example of [Cou]: 101 pixels, 20 behind", 101, 20),
+          with(SpanShape::long_run, "long: 16384 pixels, 1000 behind", 16384, 1000)};
 }
 
 SpanError span_error(const Span& span, const SpanOptions& options, SpanPrecision precision) {

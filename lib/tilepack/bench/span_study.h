@@ -9,13 +9,25 @@
 /// and the advice there. No clock here; the same numbers on every machine.
 namespace tilepack {
 
+/// By how far the horizon lies behind the last pixel, and by length.
+enum class SpanShape {
+  nearly_straight, ///< 10^6 pixels behind; 1920 pixels, as all but the last two
+  mild,            ///< as long as the span
+  steep,           ///< 100 pixels: what a camera near the ground sees
+  grazing,         ///< 5 pixels
+  horizon_inside,  ///< inside the last pixel
+  from_the_paper,  ///< [Cou]'s example: 101 pixels, 20 behind
+  long_run,        ///< 16384 pixels, 1000 behind
+};
+
 struct SpanCase {
+  SpanShape shape;
   std::string name;
   Span span;
 };
 
 /// Spans from nearly straight to one with the horizon in its last pixel; a texel of a 128-texel tile a pixel
-/// at the near end.
+/// at the near end. In the order of SpanShape, one each.
 std::vector<SpanCase> span_cases();
 
 struct SpanError {

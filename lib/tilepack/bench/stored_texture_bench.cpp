@@ -1,6 +1,7 @@
 #include "tilepack/bench/stored_texture_bench.h"
 
 #include "tilepack/bench/openimageio_textures.h"
+#include "tilepack/bench/timing.h"
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/image/openimageio_module.h"
@@ -202,7 +203,7 @@ std::vector<BenchRatio> bench_stored_texture(const Pack& original, int map,
   }
   report(progress, "stored texture", 0.5);
   const auto times =
-      in_turn(runs, options.rounds, static_cast<double>(LookupFrame::side) * LookupFrame::side);
+      in_turn(runs, {options.rounds}, static_cast<double>(LookupFrame::side) * LookupFrame::side);
   std::vector<BenchRatio> result;
   for (std::size_t i = 0; i < held_to.size(); ++i) {
     std::vector<double> ratios;

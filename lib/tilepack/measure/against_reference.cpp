@@ -1,9 +1,10 @@
 #include "tilepack/measure/against_reference.h"
 
+#include "tilepack/measure/image_metrics.h"
+#include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/sampler/ground_truth.h"
 #include "tilepack/sampler/reference_sampler.h"
-#include "tilepack/mip/level_size.h"
 
 #include <tbb/parallel_for.h>
 
@@ -116,7 +117,7 @@ ZoneError Comparison::zone_error(int level, Zone zone, int lookups, std::uint64_
   error.mean = sum / count;
   error.rms = std::sqrt(squares / count);
   constexpr double rounding = 1e-9; // what sums of doubles in another order differ by, in 8-bit units
-  if (error.rms > rounding) error.psnr = 20 * std::log10(255.0 / error.rms);
+  if (error.rms > rounding) error.psnr = psnr_of(255, error.rms);
   return error;
 }
 

@@ -162,6 +162,10 @@ double structural_similarity(const Image& a, const Image& b, double peak) {
   return sum / (static_cast<double>(wide) * high * a.channels());
 }
 
+std::optional<double> psnr_of(double peak, double rms) {
+  return rms > 0 ? std::optional(20 * std::log10(peak / rms)) : std::nullopt;
+}
+
 ImageDifference difference(const Image& a, const Image& b, ValueRange range, double scale) {
   require_same_shape(a, b);
   ImageDifference result;
@@ -193,7 +197,7 @@ ImageDifference difference(const Image& a, const Image& b, ValueRange range, dou
   const double values = static_cast<double>(std::max<std::int64_t>(1, all.values));
   result.mean = all.absolute / values * scale;
   result.rms = std::sqrt(all.squared / values) * scale;
-  if (result.rms > 0) result.psnr = 20 * std::log10(result.peak * scale / result.rms);
+  result.psnr = psnr_of(result.peak * scale, result.rms);
   result.ssim = structural_similarity(a, b, result.peak);
   return result;
 }

@@ -81,11 +81,65 @@ bool worse(const BorderStep& a, const BorderStep& b) {
   return std::tuple(a.tile, a.side, a.neighbour) < std::tuple(b.tile, b.side, b.neighbour);
 }
 
+// What one axis needs of each tile: steps inside it, and the texels by which it meets its neighbours.
+struct TileSides {
+  std::vector<Inside> inside;
+  std::vector<std::vector<float>> leaving;  // on `side`
+  std::vector<std::vector<float>> entering; // on the side that faces it
+};
+
+Side facing(Side side) {
+  return side == Side::east ? Side::west : Side::north;
+}
+
+TileSides sides_of(const std::vector<Image>& tiles, Side side) {
+  TileSides sides{std::vector<Inside>(tiles.size()), std::vector<std::vector<float>>(tiles.size()),
+                  std::vector<std::vector<float>>(tiles.size())};
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+    const Rect whole{0, 0, tiles[i].width(), tiles[i].height()};
+    sides.inside[i] = inside_steps(tiles[i], side);
+    sides.leaving[i] = values_of(tiles[i], whole, {side, 1, 0});
+    sides.entering[i] = values_of(tiles[i], whole, {facing(side), 1, 0});
+  });
+  return sides;
+}
+
+// All tiles by the color of the side that faces `side`.
+std::map<int, std::vector<int>> tiles_by_facing_color(const Pack& pack, Side side) {
+  std::map<int, std::vector<int>> tiles;
+  for (int i = 0; i < tile_count(pack.tiles); ++i)
+    tiles[border_key(pack.tiles, pack.colors, i, facing(side))].push_back(i);
+  return tiles;
+}
+
+void keep_worst(std::vector<BorderStep>& list, std::size_t most) {
+  std::sort(list.begin(), list.end(), worse);
+  if (list.size() > most) list.resize(most);
+}
+
 struct Found {
   double across = 0;
   std::int64_t pairs = 0;
   std::vector<BorderStep> worst;
 };
+
+// Every pair that tile `i` begins.
+Found pairs_of(int i, Side side, const TileSides& sides, const std::vector<int>& neighbours,
+               std::size_t channels, std::size_t kept) {
+  Found found;
+  for (const int j : neighbours) {
+    Measured pair = measured(sides.leaving[i], sides.entering[j], channels,
+                             (sides.inside[i].mean() + sides.inside[j].mean()) / 2);
+    pair.border.tile = i;
+    pair.border.side = side;
+    pair.border.neighbour = j;
+    found.across += pair.across;
+    ++found.pairs;
+    found.worst.push_back(pair.border);
+  }
+  keep_worst(found.worst, kept);
+  return found;
+}
 
 } // namespace
 
@@ -99,39 +153,17 @@ SeamFigures seam_figures(const Pack& pack, int map, int level, int list) {
   double within = 0;
   std::int64_t steps_within = 0;
   for (const Side side : {Side::east, Side::south}) {
-    const Side facing = side == Side::east ? Side::west : Side::north;
-    std::vector<Inside> inside(tiles.size());
-    std::vector<std::vector<float>> leaving(tiles.size());
-    std::vector<std::vector<float>> entering(tiles.size());
-    std::map<int, std::vector<int>> by_key;
-    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-      const Rect whole{0, 0, tiles[i].width(), tiles[i].height()};
-      inside[i] = inside_steps(tiles[i], side);
-      leaving[i] = values_of(tiles[i], whole, {side, 1, 0});
-      entering[i] = values_of(tiles[i], whole, {facing, 1, 0});
-    });
-    for (int i = 0; i < static_cast<int>(tiles.size()); ++i) {
-      by_key[border_key(pack.tiles, pack.colors, i, facing)].push_back(i);
-      within += inside[i].sum;
-      steps_within += inside[i].count;
+    const TileSides sides = sides_of(tiles, side);
+    for (const Inside& inside : sides.inside) {
+      within += inside.sum;
+      steps_within += inside.count;
     }
+    const auto by_color = tiles_by_facing_color(pack, side);
     std::vector<Found> found(tiles.size());
     tbb::parallel_for(0, static_cast<int>(tiles.size()), [&](int i) {
-      const auto neighbours = by_key.find(border_key(pack.tiles, pack.colors, i, side));
-      if (neighbours == by_key.end()) return;
-      Found& mine = found[i];
-      for (const int j : neighbours->second) {
-        Measured pair =
-            measured(leaving[i], entering[j], channels, (inside[i].mean() + inside[j].mean()) / 2);
-        pair.border.tile = i;
-        pair.border.side = side;
-        pair.border.neighbour = j;
-        mine.across += pair.across;
-        ++mine.pairs;
-        mine.worst.push_back(pair.border);
-      }
-      std::sort(mine.worst.begin(), mine.worst.end(), worse);
-      if (mine.worst.size() > kept) mine.worst.resize(kept);
+      const auto neighbours = by_color.find(border_key(pack.tiles, pack.colors, i, side));
+      if (neighbours != by_color.end())
+        found[i] = pairs_of(i, side, sides, neighbours->second, channels, kept);
     });
     for (const Found& some : found) {
       across += some.across;
@@ -139,8 +171,7 @@ SeamFigures seam_figures(const Pack& pack, int map, int level, int list) {
       figures.worst.insert(figures.worst.end(), some.worst.begin(), some.worst.end());
     }
   }
-  std::sort(figures.worst.begin(), figures.worst.end(), worse);
-  if (figures.worst.size() > kept) figures.worst.resize(kept);
+  keep_worst(figures.worst, kept);
   if (figures.pairs > 0)
     figures.seam = ratio_of(across / static_cast<double>(figures.pairs),
                             steps_within > 0 ? within / static_cast<double>(steps_within) : 0);

@@ -30,7 +30,7 @@ std::string pack_json(const PackDescription& description);
 
 /// Reads such a text back. Throws Error (invalid_content) for anything that is not as FORMAT.md says, or
 /// that a sampler could not look up safely; what is merely wrong (two tiles in one cell, a table that is no
-/// permutation) is left to the checks of `verify`. `file` is how messages name the text.
+/// permutation) is left to check_folder(). `file` is how messages name the text.
 PackDescription parsed_pack_json(std::string_view text, const std::string& file);
 
 } // namespace tilepack

@@ -2,8 +2,8 @@
 
 #include "tilepack/exemplar/feature_image.h"
 #include "tilepack/report/bake_pictures.h"
+#include "tilepack/report/html_page.h"
 #include "tilepack/report/pack_picture.h"
-#include "tilepack/report/plot.h"
 
 #include <fmt/format.h>
 
@@ -12,23 +12,6 @@
 
 namespace tilepack {
 namespace {
-
-constexpr const char* head = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"/><meta name="viewport" content="width=device-width"/><title>tilepack bake</title>
-<style>
-body { font: 15px/1.45 sans-serif; max-width: 1320px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff }
-h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em } p { max-width: 75em }
-table { border-collapse: collapse; font-size: 13px } td, th { padding: 2px 10px; text-align: right; border-bottom: 1px solid #e4e4e4 }
-.words td, .words th { text-align: left } .words td:nth-child(2) { text-align: right; white-space: nowrap }
-.verdict { border-left: 5px solid; padding: .6em 1em; background: #f6f8fa } .verdict ul { margin: .3em 0; padding-left: 1.2em }
-.good { border-color: #00704f } .fair { border-color: #c98500 } .poor { border-color: #b3261e }
-b.good { color: #00704f } b.fair { color: #8f5f00 } b.poor { color: #b3261e }
-.row { display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start } figure { margin: 0; max-width: 100% }
-img { max-width: 100%; border: 1px solid #ddd; image-rendering: auto } figcaption { font-size: 13px; max-width: 60em }
-.swatch { display: inline-block; width: 1.1em; height: 1.1em; vertical-align: -0.2em; margin: 0 .3em 0 .9em }
-.bar { display: inline-block; height: .8em; background: #0072b2 }
-</style></head><body>
-)";
 
 std::string figure(const Image& image, const std::string& caption) {
   return fmt::format(
@@ -178,12 +161,11 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
   const SampleMap& main = samples[0];
   const Image sample = viewable(main.image, main.role, main.encoding);
   const Size tile = made.pack.tile_size;
-  std::string page = head;
-  page += fmt::format("<h1>{}</h1>\n<p>{} x {} texels, {} map{}{}; {} tile{} of {} x {} texels.</p>\n",
-                      escaped(story.sample), facts.sample.width, facts.sample.height, samples.size(),
-                      samples.size() == 1 ? "" : "s",
-                      made.flatten > 0 ? fmt::format(", flattened by {} %", made.flatten) : "", facts.tiles,
-                      facts.tiles == 1 ? "" : "s", tile.width, tile.height);
+  std::string page = fmt::format(
+      "<h1>{}</h1>\n<p>{} x {} texels, {} map{}{}; {} tile{} of {} x {} texels.</p>\n", escaped(story.sample),
+      facts.sample.width, facts.sample.height, samples.size(), samples.size() == 1 ? "" : "s",
+      made.flatten > 0 ? fmt::format(", flattened by {} %", made.flatten) : "", facts.tiles,
+      facts.tiles == 1 ? "" : "s", tile.width, tile.height);
   page += verdict_box(bake_verdict(facts));
 
   page += "<h2>The texture and its tiles</h2>\n<div class=\"row\">\n";
@@ -214,7 +196,7 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
                                    : std::string("<h2>Tiles, those with the dearest cuts first</h2>\n");
   page += tiles_table(report, most_tiles);
   if (!story.stages.empty()) page += "<h2>Where the time went</h2>\n" + stages_table(story.stages);
-  return page + "<h2>Options</h2>\n" + options_table(made.pack) + "</body></html>\n";
+  return html_page("tilepack bake", page + "<h2>Options</h2>\n" + options_table(made.pack));
 }
 
 } // namespace tilepack

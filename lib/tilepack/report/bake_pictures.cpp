@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace tilepack {
 namespace {
@@ -153,6 +154,84 @@ void draw_tile_with_cuts(Image& image, Rect area, const Scale& scale, const Imag
     lay(image.texel(area.x + place.second, area.y + place.first), cut_paint(visibility, step));
 }
 
+// The sample in dark grey, for outlines to stand out.
+Image dimmed(const Image& sample, const Scale& scale) {
+  Image image(scale.pixels(sample.width()), scale.pixels(sample.height()), 3);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      std::ranges::fill(image.texel(x, y),
+                        0.08f + 0.55f * grey_of(sample.texel(scale.texel(x), scale.texel(y))));
+  return image;
+}
+
+// One tile's pieces, to be outlined where they lie in the sample.
+struct TilePieces {
+  const std::vector<SourceTexel>& texels;
+  Size tile;
+  std::vector<int> piece_of; // texel → piece
+  std::vector<Piece> list;
+
+  TilePieces(const SourceMap& sources, int id)
+      : texels(sources.texels[static_cast<std::size_t>(id)]), tile(sources.tile_size),
+        piece_of(pieces_of_tile(sources, id)), list(measured(piece_of, texels, tile)) {}
+
+  const Piece& operator[](int piece) const { return list[static_cast<std::size_t>(piece)]; }
+
+  // The side on which most of the piece's border texels lie (north, east, south, west); none if it has none.
+  std::optional<std::size_t> side_of(int piece) const {
+    const auto& counts = (*this)[piece].on_border;
+    const auto most = std::max_element(counts.begin(), counts.end());
+    if (*most == 0) return std::nullopt;
+    return static_cast<std::size_t>(most - counts.begin());
+  }
+
+  int largest() const {
+    return static_cast<int>(
+        std::max_element(list.begin(), list.end(),
+                         [](const Piece& a, const Piece& b) { return a.texels < b.texels; }) -
+        list.begin());
+  }
+
+  void outline(Image& image, const Scale& scale, int piece, const Paint& paint) const {
+    for (int y = 0; y < tile.height; ++y)
+      for (int x = 0; x < tile.width; ++x) {
+        const auto p = static_cast<std::size_t>(y * tile.width + x);
+        if (piece_of[p] != piece || !on_outline(piece_of, tile, x, y)) continue;
+        for (int j = 0; j < scale.zoom; ++j)
+          for (int i = 0; i < scale.zoom; ++i) {
+            const int px = (texels[p].x * scale.zoom + i) / scale.shrink;
+            const int py = (texels[p].y * scale.zoom + j) / scale.shrink;
+            if (px < image.width() && py < image.height()) lay(image.texel(px, py), paint);
+          }
+      }
+  }
+};
+
+// Outlines the pieces that reach a border, in its color, and returns the largest of the others; none if all
+// do. Those of fewer texels than `least` are passed over.
+std::optional<int> outline_borders(Image& image, const Scale& scale, const TilePieces& pieces,
+                                   const BorderColors& colors, int least) {
+  std::optional<int> inside;
+  for (int piece = 0; piece < static_cast<int>(pieces.list.size()); ++piece) {
+    if (pieces[piece].texels < least) continue;
+    const auto side = pieces.side_of(piece);
+    if (!side) {
+      if (!inside || pieces[piece].texels > pieces[*inside].texels) inside = piece;
+      continue;
+    }
+    Paint paint = color_paint(std::array{colors.north, colors.east, colors.south, colors.west}[*side] % 8);
+    paint.opacity = 1;
+    pieces.outline(image, scale, piece, paint);
+  }
+  return inside;
+}
+
+DrawingNumber number_on(const Piece& piece, const Scale& scale, int id, const Paint& paint) {
+  const double pixels = static_cast<double>(scale.zoom) / scale.shrink / piece.texels;
+  return {
+      {static_cast<double>(piece.sum_x) * pixels, static_cast<double>(piece.sum_y) * pixels}, 14, id, paint};
+}
+
 } // namespace
 
 Paint cut_paint(double visibility, double sample_step) {
@@ -211,63 +290,18 @@ Image use_picture(const Image& sample, const SourceMap& sources) {
 }
 
 VectorDrawing source_picture(const Image& sample, const SourceMap& sources) {
+  const Paint white{1, 1, 1, 1};
   const Scale scale = Scale::fitting(std::max(sample.width(), sample.height()), longest_side * 3 / 4);
-  VectorDrawing drawing{Image(scale.pixels(sample.width()), scale.pixels(sample.height()), 3), {}, {}};
-  Image& image = drawing.background;
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x)
-      std::ranges::fill(image.texel(x, y),
-                        0.08f + 0.55f * grey_of(sample.texel(scale.texel(x), scale.texel(y))));
-  const Size tile = sources.tile_size;
-  const int least = tile.width * tile.height / 64;
+  VectorDrawing drawing{dimmed(sample, scale), {}, {}};
+  const int least = sources.tile_size.width * sources.tile_size.height / 64;
   const std::vector<BorderColors> colors = border_colors(sources.tiles);
-  const auto outline = [&](const std::vector<int>& pieces, int piece, int id, const Paint& paint) {
-    const auto& texels = sources.texels[static_cast<std::size_t>(id)];
-    for (int y = 0; y < tile.height; ++y)
-      for (int x = 0; x < tile.width; ++x) {
-        const auto p = static_cast<std::size_t>(y * tile.width + x);
-        if (pieces[p] != piece || !on_outline(pieces, tile, x, y)) continue;
-        for (int j = 0; j < scale.zoom; ++j)
-          for (int i = 0; i < scale.zoom; ++i) {
-            const int px = (texels[p].x * scale.zoom + i) / scale.shrink;
-            const int py = (texels[p].y * scale.zoom + j) / scale.shrink;
-            if (px < image.width() && py < image.height()) lay(image.texel(px, py), paint);
-          }
-      }
-  };
   for (int id = 0; id < static_cast<int>(sources.texels.size()); ++id) {
-    const std::vector<int> pieces = pieces_of_tile(sources, id);
-    const std::vector<Piece> list = measured(pieces, sources.texels[static_cast<std::size_t>(id)], tile);
-    int inside = -1;
-    for (int k = 0; k < static_cast<int>(list.size()); ++k) {
-      const Piece& piece = list[static_cast<std::size_t>(k)];
-      if (piece.texels < least) continue;
-      const auto most = std::max_element(piece.on_border.begin(), piece.on_border.end());
-      if (*most == 0) {
-        if (inside < 0 || piece.texels > list[static_cast<std::size_t>(inside)].texels) inside = k;
-        continue;
-      }
-      const BorderColors& c = colors[static_cast<std::size_t>(id)];
-      const int color = std::array{c.north, c.east, c.south,
-                                   c.west}[static_cast<std::size_t>(most - piece.on_border.begin())];
-      Paint paint = color_paint(color % 8);
-      paint.opacity = 1;
-      outline(pieces, k, id, paint);
-    }
-    if (inside >= 0)
-      outline(pieces, inside, id, {1, 1, 1, 1});
-    else // an inside that goes on over a border
-      inside = static_cast<int>(
-          std::max_element(list.begin(), list.end(),
-                           [](const Piece& a, const Piece& b) { return a.texels < b.texels; }) -
-          list.begin());
-    const Piece& piece = list[static_cast<std::size_t>(inside)];
-    const double pixels = static_cast<double>(scale.zoom) / scale.shrink / piece.texels;
-    drawing.numbers.push_back(
-        {{static_cast<double>(piece.sum_x) * pixels, static_cast<double>(piece.sum_y) * pixels},
-         14,
-         id,
-         {1, 1, 1, 1}});
+    const TilePieces pieces(sources, id);
+    const auto inside =
+        outline_borders(drawing.background, scale, pieces, colors[static_cast<std::size_t>(id)], least);
+    if (inside) pieces.outline(drawing.background, scale, *inside, white);
+    // An inside that goes on over a border has its outline already.
+    drawing.numbers.push_back(number_on(pieces[inside.value_or(pieces.largest())], scale, id, white));
   }
   return drawing;
 }

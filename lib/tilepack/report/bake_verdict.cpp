@@ -2,6 +2,7 @@
 
 #include "tilepack/exemplar/feature_image.h"
 #include "tilepack/exemplar/flatten.h"
+#include "tilepack/report/verdict_thresholds.h"
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@ namespace tilepack {
 namespace {
 
 using Remarks = std::vector<BakeRemark>;
+namespace limit = verdict_thresholds;
 
 std::string shown(Size size) {
   return size.width == size.height ? fmt::format("{}", size.width)
@@ -30,6 +32,11 @@ double tiles_in_sample(const BakeFacts& facts) {
          tile.height;
 }
 
+// Tiles without a texel in common that could be.
+double tiles_possible(const BakeFacts& facts) {
+  return std::min(static_cast<double>(facts.tiles), tiles_in_sample(facts));
+}
+
 double percent(double share) {
   return share * 100;
 }
@@ -40,21 +47,19 @@ void add(Remarks& remarks, Grade grade, std::string text) {
   remark.text = std::move(text);
 }
 
-// Marks that mean something alone: two tones, little ink, in lines. A scanned page has two_tone 0.83; of 22
-// photos of natural and built surfaces none has more than 0.71.
+// Marks that mean something alone: two tones, little ink, in lines.
 bool is_writing(const BakeFacts& facts) {
   const SampleTraits& n = facts.nature;
   const bool along_one_axis = (n.periods.x.length > 0) != (n.periods.y.length > 0);
-  return n.two_tone > 0.78 && n.ink < 0.35 && along_one_axis;
+  return n.two_tone > limit::writing_two_tone && n.ink < limit::writing_ink && along_one_axis;
 }
 
-// Visibility of cuts against the sample's own steps. Of 22 photos, tiles of 128 texels and --effort 0: median
-// 1.2 on average and 2.9 for the dearest twentieth; those whose cuts can be seen have 1.5 and 4 or more.
-constexpr double dear_mean = 1.4;
-constexpr double dear_p95 = 4.0;
+double sample_step(const BakeFacts& facts) {
+  return std::max(facts.report.figures.sample_step, limit::least_sample_step);
+}
 
 double mean_cut(const BakeFacts& facts) {
-  return facts.report.figures.cut_mean / std::max(facts.report.figures.sample_step, 0.5);
+  return facts.report.figures.cut_mean / sample_step(facts);
 }
 
 // How far the side is from whole periods, in texels.
@@ -76,7 +81,10 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
                       period.length, axis, count));
       return;
     }
-    const Grade grade = off > 0.1 * period.length && mean_cut(facts) > dear_mean ? Grade::poor : Grade::fair;
+    const Grade grade =
+        off > limit::period_misfit_poor * period.length && mean_cut(facts) > limit::cut_mean_fair
+            ? Grade::poor
+            : Grade::fair;
     const std::string found = fmt::format(
         "The sample repeats every {:.2f} texels along {}, and {} texels are {:.2f} of them: what runs on in "
         "the sample breaks off where parts of it meet.",
@@ -110,12 +118,12 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
     return;
   }
   const double mean = mean_cut(facts);
-  const double worst = f.cut_p95 / std::max(f.sample_step, 0.5);
+  const double worst = f.cut_p95 / sample_step(facts);
   const std::string found = fmt::format(
       "Across cuts material differs by {:.1f} on average and by up to {:.1f} along 19 of 20 texels of cut; "
       "neighbouring texels of the sample differ by {:.1f}",
       f.cut_mean, f.cut_p95, f.sample_step);
-  if (mean <= dear_mean && worst <= dear_p95) {
+  if (mean <= limit::cut_mean_fair && worst <= limit::cut_p95_fair) {
     add(remarks, Grade::good, found + ", so cuts hide in the texture.");
     return;
   }
@@ -131,7 +139,7 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
   const int colors =
       o.coloring == Coloring::corner ? o.colors.corner : std::max(o.colors.horizontal, o.colors.vertical);
   if (colors > 2) suggest("--colors 2 (fewer parts that must fit one another)");
-  add(remarks, mean > 2 || worst > 6 ? Grade::poor : Grade::fair,
+  add(remarks, mean > limit::cut_mean_poor || worst > limit::cut_p95_poor ? Grade::poor : Grade::fair,
       fmt::format("{}: some can be seen. Try {}.", found, options));
 }
 
@@ -139,31 +147,23 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
 // is large and right.
 void judge_borders(const BakeFacts& facts, Remarks& remarks) {
   const SetFigures& f = facts.report.figures;
-  const double share = f.border_mean / std::max(f.sample_step, 0.5);
-  if (share <= 0.1) {
+  const double share = f.border_mean / sample_step(facts);
+  if (share <= limit::border_fair) {
     add(remarks, Grade::good, "Across borders tiles show neighbours of the sample: no border can be told.");
     return;
   }
   const std::string way_out = facts.synth.coloring == Coloring::edge
                                   ? "--coloring corner, whose corners agree"
                                   : "--guard 4, or another --seed";
-  add(remarks, share > 0.4 ? Grade::poor : Grade::fair,
+  add(remarks, share > limit::border_poor ? Grade::poor : Grade::fair,
       fmt::format(
           "Across borders material differs by {:.1f} on average (neighbouring texels of the sample by "
           "{:.1f}). Try {}.",
           f.border_mean, f.sample_step, way_out));
 }
 
-constexpr double fewest_tiles = 6; // in a sample that gives every tile an inside of its own
-
-// Tones that differ from tile to tile. With tiles of 128 texels, shading is 0.019 to 0.063 in the photos
-// whose tiles can be told by their tone (wood, sand, clouds, boards, a rubble wall, rust) and 0.017 at most
-// in the others (grass 0.017, leaves 0.017, gravel 0.004, brick 0).
-constexpr double much_shading = 0.018;
-constexpr double much_drift = 0.25;
-
 bool has_shading(const SampleTraits& nature) {
-  return nature.shading > much_shading || nature.drift > much_drift;
+  return nature.shading > limit::shading_fair || nature.drift > limit::drift_fair;
 }
 
 std::string shading_text(const BakeFacts& facts) {
@@ -172,7 +172,7 @@ std::string shading_text(const BakeFacts& facts) {
       fmt::format("{:.1f} % of the sample's variance lies between areas of a tile's size: brightness or hue "
                   "changes on a larger scale than tiles, which shows as a patchwork of tones.",
                   percent(drift));
-  if (facts.flatten < 100 && facts.flat_drift < drift / 2)
+  if (facts.flatten < 100 && facts.flat_drift < limit::flatten_helps * drift)
     return fmt::format("{} Bake with --flatten 100, which leaves {:.1f} %, or with a larger --tile-size.",
                        found, percent(facts.flat_drift));
   return found + " Use a larger --tile-size, or a sample that is more even.";
@@ -182,9 +182,9 @@ void judge_sample(const BakeFacts& facts, Remarks& remarks) {
   const SampleTraits& n = facts.nature;
   const Size tile = facts.synth.tile_size;
   const double held = tiles_in_sample(facts);
-  if (held < fewest_tiles) {
+  if (held < limit::tiles_held_fair) {
     const int smaller = std::min(facts.sample.width, facts.sample.height) / 4 / 8 * 8;
-    add(remarks, held < 2.5 ? Grade::poor : Grade::fair,
+    add(remarks, held < limit::tiles_held_poor ? Grade::poor : Grade::fair,
         fmt::format("The sample holds {:.1f} tiles, too little for every tile to have an inside of its own. "
                     "Use a larger sample{}.",
                     held,
@@ -192,7 +192,8 @@ void judge_sample(const BakeFacts& facts, Remarks& remarks) {
                         ? fmt::format(", or --tile-size {}", smaller)
                         : ""));
   }
-  if (has_shading(n)) add(remarks, n.drift > 0.5 ? Grade::poor : Grade::fair, shading_text(facts));
+  if (has_shading(n))
+    add(remarks, n.drift > limit::drift_poor ? Grade::poor : Grade::fair, shading_text(facts));
   if (is_writing(facts))
     add(remarks, Grade::poor,
         "The sample looks like writing or drawing: two tones in lines. Tiles keep what neighbours "
@@ -208,7 +209,8 @@ std::string way_to_variety(const BakeFacts& facts) {
   const int more = 1 + (corner ? k.corner : std::min(k.horizontal, k.vertical));
   if (o.interior == Construction::quilt) return " --interior patch gives every tile an inside of its own.";
   const double held = tiles_in_sample(facts);
-  if (held < facts.tiles) return held < fewest_tiles ? "" : " A larger sample or smaller tiles show more.";
+  if (held < facts.tiles)
+    return held < limit::tiles_held_fair ? "" : " A larger sample or smaller tiles show more.";
   if (more > (corner ? 4 : 8)) return "";
   const int complete = corner ? facts.tiles : k.horizontal * k.horizontal * k.vertical * k.vertical;
   return fmt::format(" --colors {} shows more, in {} tiles.", more,
@@ -226,19 +228,19 @@ void judge_variety(const BakeFacts& facts, Remarks& remarks) {
       "The tiles show {:.0f} % of the sample and are as varied as {:.1f} tiles without a texel in "
       "common, of {}",
       percent(f.coverage), f.distinct_tiles, facts.tiles);
-  const double possible = std::min(static_cast<double>(facts.tiles), tiles_in_sample(facts));
-  const bool few = f.coverage < 0.5 && f.distinct_tiles < 0.5 * possible;
+  const double possible = tiles_possible(facts);
+  const bool few = f.coverage < limit::coverage_few && f.distinct_tiles < limit::variety_fair * possible;
   if (few)
-    add(remarks, f.distinct_tiles < 0.3 * possible ? Grade::poor : Grade::fair,
+    add(remarks, f.distinct_tiles < limit::variety_poor * possible ? Grade::poor : Grade::fair,
         found + ": parts come back often, and others are never seen." + way_out);
   else
     add(remarks, Grade::good, found + ".");
-  if (f.shown_often > 0.35) // the way out is said once
+  if (f.shown_often > limit::shown_often_fair) // the way out is said once
     add(remarks, Grade::fair,
         fmt::format("{:.0f} % of the tiles' area shows what half of all tiles show.{}",
                     percent(f.shown_often), few ? "" : way_out));
-  if (f.histogram_distance > 0.06)
-    add(remarks, f.histogram_distance > 0.12 ? Grade::poor : Grade::fair,
+  if (f.histogram_distance > limit::histogram_fair)
+    add(remarks, f.histogram_distance > limit::histogram_poor ? Grade::poor : Grade::fair,
         fmt::format(
             "Values are spread otherwise than in the sample, by {:.1f} % of texels: some brightness or "
             "kind of detail is shown too often. Try another --seed{}.",
@@ -248,8 +250,11 @@ void judge_variety(const BakeFacts& facts, Remarks& remarks) {
 
 void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
   const Landmark& mark = facts.report.landmark;
-  if (mark.deviation < 3.5 || mark.shown < 0.2) return;
-  add(remarks, mark.shown >= 0.4 && mark.deviation >= 4.5 ? Grade::poor : Grade::fair,
+  if (mark.deviation < limit::landmark_deviation_fair || mark.shown < limit::landmark_shown_fair) return;
+  add(remarks,
+      mark.shown >= limit::landmark_shown_poor && mark.deviation >= limit::landmark_deviation_poor
+          ? Grade::poor
+          : Grade::fair,
       fmt::format(
           "The spot round ({}, {}) of the sample is unlike the rest ({:.1f} standard deviations), and "
           "{:.0f} % of the tiles show it: the eye may find it again and again. Try another --seed, or "
@@ -258,6 +263,26 @@ void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
 }
 
 } // namespace
+
+std::vector<JudgedFigure> judged_figures(const BakeFacts& facts) {
+  const SetFigures& f = facts.report.figures;
+  const SampleTraits& n = facts.nature;
+  const Landmark& mark = facts.report.landmark;
+  return {{"cut mean", mean_cut(facts), limit::cut_mean_fair, limit::cut_mean_poor},
+          {"cut p95", f.cut_p95 / sample_step(facts), limit::cut_p95_fair, limit::cut_p95_poor},
+          {"border", f.border_mean / sample_step(facts), limit::border_fair, limit::border_poor},
+          {"tiles held", tiles_in_sample(facts), limit::tiles_held_fair, limit::tiles_held_poor},
+          {"shading", n.shading, limit::shading_fair, {}},
+          {"drift", n.drift, limit::drift_fair, limit::drift_poor},
+          {"two tones", n.two_tone, {}, limit::writing_two_tone},
+          {"ink", n.ink, {}, limit::writing_ink},
+          {"coverage", f.coverage, limit::coverage_few, limit::coverage_few},
+          {"variety", f.distinct_tiles / tiles_possible(facts), limit::variety_fair, limit::variety_poor},
+          {"shown often", f.shown_often, limit::shown_often_fair, {}},
+          {"histogram", f.histogram_distance, limit::histogram_fair, limit::histogram_poor},
+          {"mark", mark.deviation, limit::landmark_deviation_fair, limit::landmark_deviation_poor},
+          {"mark shown", mark.shown, limit::landmark_shown_fair, limit::landmark_shown_poor}};
+}
 
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) {
   constexpr int worst_borders = 3;

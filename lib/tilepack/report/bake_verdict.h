@@ -4,6 +4,7 @@
 #include "tilepack/exemplar/sample_traits.h"
 #include "tilepack/measure/seams.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,12 +37,24 @@ struct BakeRemark {
   bool operator==(const BakeRemark&) const = default;
 };
 
-/// By fixed rules from the figures; the limits stand in bake_verdict.cpp with the samples they come from.
+/// By fixed rules from the figures; the limits stand in verdict_thresholds.h with what set them.
 struct BakeVerdict {
   Grade grade = Grade::good;       ///< the worst of the remarks
   std::vector<BakeRemark> remarks; ///< the worst first
 };
 
 BakeVerdict bake_verdict(const BakeFacts& facts);
+
+/// A figure as it is held against the limits of verdict_thresholds.h, in their units; a limit that is absent
+/// does not exist. Some count only together: two tones with ink, coverage with variety, both of a mark.
+struct JudgedFigure {
+  std::string_view name;
+  double value = 0;
+  std::optional<double> fair;
+  std::optional<double> poor;
+};
+
+/// All of them but those of repeats, in a fixed order: for setting the limits again.
+std::vector<JudgedFigure> judged_figures(const BakeFacts& facts);
 
 } // namespace tilepack

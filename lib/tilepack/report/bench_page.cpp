@@ -1,4 +1,6 @@
-#include "tilepack/bench/bench.h"
+#include "tilepack/report/bench_page.h"
+
+#include "tilepack/report/html_page.h"
 #include "tilepack/report/plot.h"
 
 #include <fmt/format.h>
@@ -8,32 +10,16 @@
 namespace tilepack {
 namespace {
 
-constexpr const char* head = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>tilepack bench</title>
-<style>
-body { font: 15px/1.45 sans-serif; max-width: 1320px; margin: 2em auto; padding: 0 1em; color: #222; background: #fff }
-h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em }
-.row { display: flex; flex-wrap: wrap; gap: 1em; margin: 1em 0 } .row > div, .row > svg { flex: 1 1 560px; max-width: 640px }
-svg { background: #fafafa; border: 1px solid #ddd; width: 100% }
-.title { font: bold 14px sans-serif } .tick { font: 11px sans-serif; fill: #444 } .grid { stroke: #e2e2e2 }
-table { border-collapse: collapse; font-size: 13px } td, th { padding: 2px 10px; text-align: right; border-bottom: 1px solid #e4e4e4 }
-td:first-child, th:first-child, .words td:nth-child(2), .words th:nth-child(2), .costs td:nth-child(-n+5), .costs th:nth-child(-n+5) { text-align: left } .good { color: #00704f } .bad { color: #b3261e; font-weight: bold }
-.best { color: #00704f; font-weight: bold }
-.advice { background: #eef6fb; border-left: 4px solid #0072b2; padding: .6em 1em }
-figure { margin: 0; flex: 0 0 230px } figcaption { font-size: 13px; text-align: center }
-</style></head><body>
-)";
-
 std::string cost_plot(const Bench& bench) {
   Plot plot{"Speed against error", "ns a sample (log)", "RMS from the truth, 8-bit units", true, false, {}};
-  for (const char* filter : {"bilinear", "trilinear", "elliptical"})
-    for (const char* sampler : {"fast", "reference"}) {
-      PlotSeries series{fmt::format("{} {}", sampler, filter), {}, {}, false};
+  for (const BenchFilter filter : {BenchFilter::bilinear, BenchFilter::trilinear, BenchFilter::elliptical})
+    for (const BenchSampler sampler : {BenchSampler::fast, BenchSampler::reference}) {
+      PlotSeries series{fmt::format("{} {}", name_of(sampler), name_of(filter)), {}, {}, false};
       for (const LookupCost& c : bench.lookups.costs) {
         if (c.filter != filter || c.sampler != sampler) continue;
         series.points.emplace_back(c.nanoseconds, c.rms_truth);
-        series.labels.push_back(fmt::format("{}, {} weights: {:.2f} ns, {:.3f}", c.mapping, c.weights,
-                                            c.nanoseconds, c.rms_truth));
+        series.labels.push_back(fmt::format("{}, {} weights: {:.2f} ns, {:.3f}", name_of(c.mapping),
+                                            name_of(c.weights), c.nanoseconds, c.rms_truth));
       }
       if (!series.points.empty()) plot.series.push_back(std::move(series));
     }
@@ -99,9 +85,10 @@ std::string jump_plot(const Bench& bench) {
 
 // One square a pixel, black where exact, white from 8 units on.
 std::string corner_picture(const CornerPicture& picture) {
-  std::string out = fmt::format("<figure><svg viewBox=\"0 0 {0} {0}\" shape-rendering=\"crispEdges\"><rect "
-                                "width=\"{0}\" height=\"{0}\" fill=\"#000\"/>\n",
-                                picture.side);
+  std::string out =
+      fmt::format("<figure><svg width=\"230\" viewBox=\"0 0 {0} {0}\" shape-rendering=\"crispEdges\"><rect "
+                  "width=\"{0}\" height=\"{0}\" fill=\"#000\"/>\n",
+                  picture.side);
   for (int y = 0; y < picture.side; ++y)
     for (int x = 0; x < picture.side; ++x) {
       const double error = picture.error[static_cast<std::size_t>(y * picture.side + x)];
@@ -140,8 +127,8 @@ std::string cost_table(const Bench& bench) {
     out +=
         fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.1f}</"
                     "td><td>{:.5f}</td><td>{:.3f}</td></tr>\n",
-                    c.sampler, c.mapping, c.corners, c.filter, c.weights, c.nanoseconds, 1000 / c.nanoseconds,
-                    c.off_reference, c.rms_truth);
+                    name_of(c.sampler), name_of(c.mapping), corners_of(c), name_of(c.filter),
+                    name_of(c.weights), c.nanoseconds, 1000 / c.nanoseconds, c.off_reference, c.rms_truth);
   return out + "</table>\n";
 }
 
@@ -165,7 +152,7 @@ std::string mip_table(const Bench& bench) {
 
 std::string hard_table(const Bench& bench) {
   std::string out =
-      "<table class=\"words\"><tr><th>input</th><th>promised</th><th>reference sampler</th><th>fast "
+      "<table class=\"told\"><tr><th>input</th><th>promised</th><th>reference sampler</th><th>fast "
       "sampler</th></tr>\n";
   for (const HardLookup& c : bench.stress_lookups)
     out += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"{}\">{:.2g}</td><td>{}</td></tr>\n",
@@ -177,8 +164,7 @@ std::string hard_table(const Bench& bench) {
 } // namespace
 
 std::string bench_page(const Bench& bench) {
-  std::string page = head;
-  page += fmt::format(
+  std::string page = fmt::format(
       "<h1>{}, map {}</h1>\n<p>Best instruction set here: {}; {} threads. Errors in 8-bit units.</p>\n",
       escaped(bench.pack), escaped(bench.map), escaped(bench.target), bench.lookups.threads);
   page += "<div class=\"advice\"><b>What to choose</b><ul>\n";
@@ -204,8 +190,8 @@ std::string bench_page(const Bench& bench) {
     page += "<h2>Hard cases</h2>\n<p>Largest difference from what is promised, in 8-bit units of linear "
             "light.</p>\n" +
             hard_table(bench);
-  return page + "<h2>All mip figures</h2>\n<pre>" + escaped(reference_errors_text(bench.mips)) +
-         "</pre>\n</body></html>\n";
+  page += "<h2>All mip figures</h2>\n<pre>" + escaped(reference_errors_text(bench.mips)) + "</pre>\n";
+  return html_page("tilepack bench", page);
 }
 
 } // namespace tilepack

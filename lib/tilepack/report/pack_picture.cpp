@@ -2,9 +2,9 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/layout/corner_grid.h"
+#include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/sampler/virtual_texture.h"
-#include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
 

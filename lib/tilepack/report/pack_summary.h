@@ -19,13 +19,6 @@ struct PackSummary {
   std::optional<SeamFigures> seams;                ///< of level 0 of the first map, if the images were read
 };
 
-/// Uncompressed bytes of all levels of all maps, corner pack counted.
-std::uint64_t bytes_in_memory(const Pack& pack, const PackDescription& description);
-
-/// Uncompressed bytes of a texture of the virtual size with the same maps and levels. May exceed 2^64: a
-/// double.
-double bytes_stored_whole(const Pack& pack);
-
 /// Bytes of the files that are there.
 std::uint64_t bytes_on_disk(const PackSummary& summary);
 

@@ -1,4 +1,5 @@
 #include "tilepack/json/json_value.h"
+#include "tilepack/measure/pack_memory.h"
 #include "tilepack/report/pack_summary.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "tilepack/report/plot.h"
 
+#include "tilepack/report/html_page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +11,12 @@
 namespace tilepack {
 namespace {
 
-constexpr double width = 640, height = 360, left = 64, right = 180, top = 34, bottom = 46;
+// Of the plot with its labels, without the legend.
+constexpr double width = 480, height = 340, left = 62, right = 16, top = 34, bottom = 48;
+constexpr double legend_row = 19;
 // Distinct also for people who don't see colors well.
-constexpr std::array colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#444444"};
+constexpr std::array palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                             "#e69f00", "#56b4e9", "#444444", "#999999"};
 
 struct Axis {
   double low = 0;
@@ -37,7 +42,7 @@ Axis axis_of(const Plot& plot, bool x) {
     }
   if (!(low <= high)) return {0, 1, log};
   if (log) return {std::floor(low), std::max(std::ceil(high), std::floor(low) + 1), true};
-  if (!x) low = std::min(low, 0.0);
+  if (!x || plot.x_from_zero) low = std::min(low, 0.0);
   return {low, high > low ? high + (x ? 0 : 0.05 * (high - low)) : low + 1, false};
 }
 
@@ -60,69 +65,100 @@ std::vector<double> ticks(const Axis& axis) {
   return result;
 }
 
-} // namespace
+struct Frame {
+  Axis x;
+  Axis y;
+  double at_x(double value) const { return left + x.share(value) * (width - left - right); }
+  double at_y(double value) const { return height - bottom - y.share(value) * (height - top - bottom); }
+};
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
+const char* color_of(const PlotSeries& series, std::size_t place) {
+  return palette[(series.color < 0 ? place : static_cast<std::size_t>(series.color)) % palette.size()];
 }
 
-std::string svg(const Plot& plot) {
-  const Axis x = axis_of(plot, true);
-  const Axis y = axis_of(plot, false);
-  const auto px = [&](double value) { return left + x.share(value) * (width - left - right); };
-  const auto py = [&](double value) { return height - bottom - y.share(value) * (height - top - bottom); };
-  std::string out =
-      fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n<text x=\"{}\" y=\"18\" "
-                  "class=\"title\">{}</text>\n",
-                  width, height, escaped(plot.title), left, escaped(plot.title));
-  for (const double tick : ticks(x))
-    out += fmt::format(
-        "<line x1=\"{0:.1f}\" y1=\"{1}\" x2=\"{0:.1f}\" y2=\"{2}\" class=\"grid\"/><text x=\"{0:.1f}\" "
-        "y=\"{3}\" class=\"tick\" text-anchor=\"middle\">{4:g}</text>\n",
-        px(tick), top, height - bottom, height - bottom + 15, tick);
-  for (const double tick : ticks(y))
-    out += fmt::format(
-        "<line x1=\"{0}\" y1=\"{1:.1f}\" x2=\"{2}\" y2=\"{1:.1f}\" class=\"grid\"/><text x=\"{3}\" "
-        "y=\"{4:.1f}\" class=\"tick\" text-anchor=\"end\">{5:g}</text>\n",
-        left, py(tick), width - right, left - 6, py(tick) + 4, tick);
-  out += fmt::format("<text x=\"{:.1f}\" y=\"{}\" class=\"tick\" text-anchor=\"middle\">{}</text>\n",
-                     (left + width - right) / 2, height - 10, escaped(plot.x_label));
-  out += fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" class=\"tick\" "
-                     "text-anchor=\"middle\">{}</text>\n",
-                     (top + height - bottom) / 2, escaped(plot.y_label));
-  for (std::size_t s = 0; s < plot.series.size(); ++s) {
-    const PlotSeries& series = plot.series[s];
-    const char* color = colors[s % colors.size()];
-    std::string line;
-    for (std::size_t i = 0; i < series.points.size(); ++i) {
-      const auto [vx, vy] = series.points[i];
-      line += fmt::format("{:.1f},{:.1f} ", px(vx), py(vy));
-      const std::string label =
-          i < series.labels.size() ? series.labels[i] : fmt::format("{:g}, {:.4g}", vx, vy);
-      out += fmt::format(
-          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"><title>{}: {}</title></circle>\n",
-          px(vx), py(vy), color, escaped(series.name), escaped(label));
+std::string grid(const Frame& frame) {
+  std::string out;
+  for (const double tick : ticks(frame.x))
+    out += fmt::format("<path d=\"M{0:.1f} {1}V{2}\" stroke=\"#e2e2e2\"/><text x=\"{0:.1f}\" y=\"{3}\" "
+                       "text-anchor=\"middle\">{4:g}</text>\n",
+                       frame.at_x(tick), top, height - bottom, height - bottom + 17, tick);
+  for (const double tick : ticks(frame.y))
+    out += fmt::format("<path d=\"M{0} {1:.1f}H{2}\" stroke=\"#e2e2e2\"/><text x=\"{3}\" y=\"{4:.1f}\" "
+                       "text-anchor=\"end\">{5:g}</text>\n",
+                       left, frame.at_y(tick), width - right, left - 5, frame.at_y(tick) + 4.5, tick);
+  return out;
+}
+
+std::string stroke(const PlotSeries& series, const char* color) {
+  return fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"{}", color,
+                     series.dashed ? " stroke-dasharray=\"5 4\"" : "");
+}
+
+std::string drawn(const PlotSeries& series, const Frame& frame, const char* color) {
+  std::string line;
+  std::string marks;
+  bool broken = true;
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    const auto [x, y] = series.points[i];
+    if (!std::isfinite(x) || !std::isfinite(y)) {
+      broken = true;
+      continue;
     }
-    if (series.joined)
-      out += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>\n", line,
-                         color);
-    out += fmt::format("<circle cx=\"{0}\" cy=\"{1}\" r=\"3.5\" fill=\"{2}\"/><text x=\"{3}\" y=\"{4}\" "
-                       "class=\"tick\">{5}</text>\n",
-                       width - right + 14, top + 8 + 18 * static_cast<double>(s), color, width - right + 22,
-                       top + 12 + 18 * static_cast<double>(s), escaped(series.name));
+    line += fmt::format("{}{:.1f} {:.1f}", broken ? "M" : "L", frame.at_x(x), frame.at_y(y));
+    broken = false;
+    const std::string label = i < series.labels.size() ? series.labels[i] : fmt::format("{:g}, {:.4g}", x, y);
+    marks += fmt::format(
+        "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"><title>{}: {}</title></circle>\n",
+        frame.at_x(x), frame.at_y(y), color, escaped(series.name), escaped(label));
+  }
+  std::string out;
+  if (series.joined && !line.empty()) out = fmt::format("<path d=\"{}\" {}/>\n", line, stroke(series, color));
+  return series.marked ? out + marks : out;
+}
+
+// Two columns where all names are short enough for half the width.
+int legend_columns(const Plot& plot) {
+  constexpr std::size_t longest = 27;
+  return std::all_of(plot.series.begin(), plot.series.end(),
+                     [](const PlotSeries& series) { return series.name.size() <= longest; })
+             ? 2
+             : 1;
+}
+
+std::string legend_entry(const PlotSeries& series, const char* color, double x, double y) {
+  std::string out;
+  if (series.joined) out += fmt::format("<path d=\"M{} {:.1f}h20\" {}/>", x, y, stroke(series, color));
+  if (series.marked)
+    out += fmt::format("<circle cx=\"{}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>", x + 10, y, color);
+  return out + fmt::format("<text x=\"{}\" y=\"{:.1f}\">{}</text>\n", x + 27, y + 4.5, escaped(series.name));
+}
+
+} // namespace
+
+std::string svg(const Plot& plot) {
+  const Frame frame{axis_of(plot, true), axis_of(plot, false)};
+  const double legend_top = height + 10;
+  const int columns = legend_columns(plot);
+  const auto rows = (static_cast<int>(plot.series.size()) + columns - 1) / columns;
+  const double whole_height = legend_top + legend_row * rows + 6;
+  std::string out = fmt::format(
+      "<svg class=\"plot\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
+      "height=\"{1}\" role=\"img\" aria-label=\"{2}\" font-family=\"sans-serif\" font-size=\"13\" "
+      "fill=\"#333\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fafafa\"/>\n<text x=\"12\" y=\"20\" "
+      "font-weight=\"bold\" font-size=\"{3}\">{2}</text>\n",
+      width, whole_height, escaped(plot.title), plot.title.size() > 56 ? 13 : 15);
+  out += grid(frame);
+  out += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
+                     (left + width - right) / 2, height - 8, escaped(plot.x_label));
+  out +=
+      fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                  (top + height - bottom) / 2, escaped(plot.y_label));
+  for (std::size_t s = 0; s < plot.series.size(); ++s) {
+    const char* color = color_of(plot.series[s], s);
+    out += drawn(plot.series[s], frame, color);
+    const int number = static_cast<int>(s);
+    out += legend_entry(plot.series[s], color, 12 + number % columns * (width - 12) / columns,
+                        legend_top + legend_row * (number / columns + 0.5));
   }
   return out + "</svg>\n";
 }

@@ -6,13 +6,16 @@
 
 namespace tilepack {
 
-/// A line of a plot: points in order of x; `joined` false draws marks alone, each with its label if there is
-/// one.
+/// A line of a plot: points in order of x. A value that isn't finite is left out and breaks the line.
 struct PlotSeries {
   std::string name;
   std::vector<std::pair<double, double>> points;
-  std::vector<std::string> labels;
-  bool joined = true;
+  std::vector<std::string>
+      labels;         ///< shown where the pointer rests on a mark; the values where there is none
+  bool joined = true; ///< by a line; else marks alone
+  bool marked = true; ///< a dot at each point
+  bool dashed = false;
+  int color = -1; ///< of the palette, turned round; -1: the series' place among all
 };
 
 struct Plot {
@@ -22,12 +25,11 @@ struct Plot {
   bool log_x = false; ///< decades; values of 0 and less are drawn on the lower border
   bool log_y = false;
   std::vector<PlotSeries> series;
+  bool x_from_zero = false; ///< the axis of x begins at 0 where it isn't logarithmic; that of y always does
 };
 
-/// An SVG element of 640 x 360, without scripts or outside references.
+/// An SVG element 480 wide, of class "plot", without scripts or outside references: the plot with grid and
+/// labels, and the legend below it. Letters are 13 high, so that it can be read when drawn 370 pixels wide.
 std::string svg(const Plot& plot);
-
-/// `text` with &, <, > and " as entities.
-std::string escaped(const std::string& text);
 
 } // namespace tilepack

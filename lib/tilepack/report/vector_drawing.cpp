@@ -12,12 +12,12 @@
 namespace tilepack {
 namespace {
 
-// Characters of 5 x 7 dots, a string a row, in the order of their names.
+// Characters of 5 x 7 dots, a string a row, in the order of drawn_characters.
 constexpr int glyph_columns = 5;
 constexpr int glyph_rows = 7;
-constexpr std::string_view glyph_names = "0123456789aceikmnpvx";
 using Glyph = std::array<std::string_view, glyph_rows>;
-constexpr std::array<Glyph, glyph_names.size()> glyphs{{
+constexpr Glyph box{"#####", "#   #", "#   #", "#   #", "#   #", "#   #", "#####"};
+constexpr std::array<Glyph, drawn_characters.size()> glyphs{{
     {" ### ", "#   #", "#  ##", "# # #", "##  #", "#   #", " ### "},
     {"  #  ", " ##  ", "  #  ", "  #  ", "  #  ", "  #  ", " ### "},
     {" ### ", "#   #", "    #", "   # ", "  #  ", " #   ", "#####"},
@@ -105,9 +105,8 @@ void write(Image& image, const DrawingPoint& centre, double height, std::string_
   const int x0 = static_cast<int>(std::floor(centre.x - width / 2.0 + 0.5));
   const int y0 = static_cast<int>(std::floor(centre.y - glyph_rows * dot / 2.0 + 0.5));
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::size_t name = glyph_names.find(text[i]);
-    if (name == std::string_view::npos) continue;
-    const Glyph& glyph = glyphs[name];
+    const std::size_t name = drawn_characters.find(text[i]);
+    const Glyph& glyph = name == std::string_view::npos ? box : glyphs[name];
     for (int row = 0; row < glyph_rows * dot; ++row)
       for (int column = 0; column < glyph_columns * dot; ++column) {
         const int x = x0 + static_cast<int>(i) * (glyph_columns + 1) * dot + column;

@@ -3,6 +3,7 @@
 #include "tilepack/image/image.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tilepack {
@@ -36,7 +37,10 @@ struct DrawingNumber {
   Paint paint;
 };
 
-/// A short name, set as a number is: small letters of "ackimpx".
+/// The characters that rasterised() has; every other is drawn as a box, so that it is seen to be missing.
+constexpr std::string_view drawn_characters = "0123456789aceikmnpvx";
+
+/// A short name of drawn_characters, set as a number is.
 struct DrawingWord {
   DrawingPoint centre;
   double height = 0;

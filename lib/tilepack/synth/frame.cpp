@@ -43,4 +43,8 @@ FrameShape halved(const FrameShape& shape, int times) {
   return small;
 }
 
+bool in_guard(const FrameShape& shape, int x, int y) {
+  return std::min({x, y, shape.tile.width - 1 - x, shape.tile.height - 1 - y}) < shape.guard;
+}
+
 } // namespace tilepack

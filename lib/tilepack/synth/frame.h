@@ -67,4 +67,11 @@ struct Frame {
 /// point only the corner patch is shown.
 Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& sources);
 
+/// What a texel of a tile stems from while nothing is chosen for it.
+constexpr SourceTexel no_source{-1, -1};
+
+/// Whether a texel lies within `guard` of a border of its tile: it shows the strip in every tile. Also of texels
+/// outside of the tile.
+bool in_guard(const FrameShape& shape, int x, int y);
+
 } // namespace tilepack

@@ -17,10 +17,6 @@
 namespace tilepack {
 namespace {
 
-int distance_to_border(Size tile, int x, int y) {
-  return std::min({x, y, tile.width - 1 - x, tile.height - 1 - y});
-}
-
 struct Choice {
   SourceTexel place;
   std::int64_t mismatch;
@@ -233,10 +229,6 @@ void refine(const SearchSpace& space, const std::vector<TileLevels>& tiles,
 }
 
 } // namespace
-
-bool in_guard(const FrameShape& shape, int x, int y) {
-  return distance_to_border(shape.tile, x, y) < shape.guard;
-}
 
 std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& frame) {
   std::vector<SourceCanvas> tiles(shape.tiles.size());

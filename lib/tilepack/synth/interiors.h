@@ -13,12 +13,6 @@ namespace tilepack {
 /// strip, the horizontal one where equal.
 std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& frame);
 
-constexpr SourceTexel no_source{-1, -1};
-
-/// Whether a texel lies within `guard` of a border of its tile: it shows the strip in every tile. Also of texels
-/// outside of the tile.
-bool in_guard(const FrameShape& shape, int x, int y);
-
 struct InteriorChoice {
   std::vector<SourceTexel> places; ///< of each tile's north-west texel; whole tiles lie inside the sample
   double cost = 0.0;               ///< by fit, reuse and statistics together, at the scale of the search

@@ -1,7 +1,5 @@
 #include "tilepack/synth/tile_levels.h"
 
-#include "tilepack/synth/interiors.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>

@@ -1,15 +1,15 @@
 #pragma once
 
-#include "console.h"
-
 #include "tilepack/bench/span_study.h"
+#include "tilepack/error/progress.h"
+#include "tilepack/pack/pack.h"
 #include "tilepack/scanline/view_spans.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace tilepack::cli {
+namespace tilepack {
 
 /// One way to step spans, with what it costs and what it gets wrong. Times in nanoseconds a pixel, medians.
 struct SpanFigures {
@@ -55,19 +55,19 @@ struct SpanBench {
 /// "newton-direct, every 16".
 std::string name_of(const SpanOptions& options);
 
-/// What `tilepack bench --spans` prints and writes.
-std::string spans_text(const SpanBench& bench);
-std::string spans_json(const SpanBench& bench);
-std::string spans_html(const SpanBench& bench);
+/// The errors of one of span_cases().
+const SpanError& error_of(const SpanFigures& figures, SpanShape shape);
 
-struct SpanBenchArguments {
-  std::string pack;   ///< empty: the view is stepped, but not textured
-  std::string report; ///< HTML file, or empty
-  std::string format = "text";
-  bool quick = false; ///< one rough round of timing, a small view
-};
+/// Measures all of it. `pack`: whose first map is laid on the ground seen; null: the view is stepped, but not
+/// textured. `quick`: one rough round of timing, a small view. Throws Error (check_failed) if an answer is
+/// wrong before it is timed. Times differ from run to run, errors don't.
+SpanBench span_bench(const Pack* pack, bool quick, const Progress& progress = {});
 
-/// Measures, prints, and writes the report. Throws Error (check_failed) if an answer is wrong before timing.
-int bench_spans(const SpanBenchArguments& arguments, Console& console);
+/// Which method when, one sentence a line, by fixed rules from the figures.
+std::vector<std::string> span_advice(const SpanBench& bench);
 
-} // namespace tilepack::cli
+/// A table for people, and JSON.
+std::string span_bench_text(const SpanBench& bench);
+std::string span_bench_json(const SpanBench& bench);
+
+} // namespace tilepack

@@ -1,14 +1,12 @@
-#include "bench_spans.h"
-
+#include "tilepack/bench/span_bench.h"
 #include "tilepack/json/json_value.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace tilepack::cli {
+namespace tilepack {
 namespace {
-
 
 std::string short_number(double value) {
   if (!std::isfinite(value)) return "broken";
@@ -52,7 +50,7 @@ JsonValue hard_json(const std::vector<HardResult>& results) {
 
 } // namespace
 
-std::string spans_text(const SpanBench& bench) {
+std::string span_bench_text(const SpanBench& bench) {
   std::string text =
       fmt::format("Span methods, vectors: {}. ns a pixel (u and v), medians; errors in pixels of "
                   "the screen, case by case:\n",
@@ -93,7 +91,7 @@ std::string spans_text(const SpanBench& bench) {
   return text;
 }
 
-std::string spans_json(const SpanBench& bench) {
+std::string span_bench_json(const SpanBench& bench) {
   JsonValue json;
   json["target"] = bench.target;
   const auto cases = span_cases();
@@ -149,4 +147,4 @@ std::string spans_json(const SpanBench& bench) {
   return json_text(json);
 }
 
-} // namespace tilepack::cli
+} // namespace tilepack

@@ -1,11 +1,15 @@
-#include "bench_spans.h"
-#include "svg_plot.h"
+#include "tilepack/report/span_bench_page.h"
+
+#include "tilepack/report/html_page.h"
+#include "tilepack/report/plot.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
-namespace tilepack::cli {
+namespace tilepack {
 namespace {
 
 std::string short_number(double value) {
@@ -29,21 +33,30 @@ int color_of(SpanMethod method) {
   return static_cast<int>(method);
 }
 
-Plot trade_off(const SpanBench& bench, SpanPrecision precision, std::size_t which) {
+Plot trade_off(const SpanBench& bench, SpanPrecision precision, SpanShape shape) {
   Plot plot;
-  plot.title = fmt::format("{}: error against cost, {}", name_of(precision), span_cases()[which].name);
+  plot.title = fmt::format("{}: error against cost, {}", name_of(precision),
+                           span_cases()[static_cast<std::size_t>(shape)].name);
   plot.x_label = "ns a pixel, 32 scanlines side by side";
   plot.y_label = "largest error, pixels";
   plot.log_y = true;
+  plot.x_from_zero = true;
   for (const SpanFigures& f : bench.methods) {
     if (f.precision != precision) continue;
     const std::string name(name_of(f.options.method));
     if (plot.series.empty() || plot.series.back().name != name)
-      plot.series.push_back({name, {}, {}, false, false, color_of(f.options.method)});
-    plot.series.back().x.push_back(f.side_by_side);
-    plot.series.back().y.push_back(f.errors[which].pixels);
+      plot.series.push_back({name, {}, {}, false, true, false, color_of(f.options.method)});
+    plot.series.back().points.emplace_back(f.side_by_side, error_of(f, shape).pixels);
+    plot.series.back().labels.push_back(name_of(f.options));
   }
   return plot;
+}
+
+std::vector<std::pair<double, double>> paired(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+    if (y[i] > 0) points.emplace_back(x[i], y[i]); // on a logarithm zeros would fill the lower border
+  return points;
 }
 
 Plot growth(const SpanBench& bench, bool rounding) {
@@ -55,9 +68,16 @@ Plot growth(const SpanBench& bench, bool rounding) {
   plot.log_y = true;
   int color = 0;
   for (const ErrorCurve& curve : bench.curves) {
-    plot.series.push_back({curve.name, curve.n, rounding ? curve.rounding : curve.total, true, false, color});
+    plot.series.push_back({curve.name,
+                           paired(curve.n, rounding ? curve.rounding : curve.total),
+                           {},
+                           true,
+                           false,
+                           false,
+                           color});
     if (!rounding && !curve.bound.empty() && curve.name.find("added") == std::string::npos)
-      plot.series.push_back({curve.name + ", bound", curve.n, curve.bound, true, true, color});
+      plot.series.push_back(
+          {curve.name + ", bound", paired(curve.n, curve.bound), {}, true, false, true, color});
     ++color;
   }
   return plot;
@@ -128,24 +148,18 @@ std::string view_table(const SpanBench& bench) {
 
 } // namespace
 
-std::string spans_html(const SpanBench& bench) {
+std::string span_bench_page(const SpanBench& bench) {
   std::string html =
-      "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><title>Span methods</title>\n<style>"
-      "body{font:14px/1.5 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}"
-      "table{border-collapse:collapse;font-size:12px;margin:1em 0;display:block;overflow-x:auto}"
-      "td,th{border:1px solid #ccc;padding:2px 6px;text-align:right}"
-      "th:first-child{text-align:left;font-weight:normal}.bad{background:#fde0dc}"
-      "svg{display:block;margin:1em 0;max-width:100%}</style></head><body>\n";
-  html +=
       fmt::format("<h1>Perspective spans: speed against error</h1>\n<p>Vectors: {}. Times are medians of "
                   "eleven runs on this machine, in nanoseconds a pixel, both coordinates; their ratios tell "
                   "more than they do. Errors are measured against long double.</p>\n<h2>Which method "
                   "when</h2>\n<ul>\n",
                   escaped(bench.target));
   for (const std::string& line : bench.advice) html += "<li>" + escaped(line) + "</li>\n";
-  html += "</ul>\n<h2>Error against cost</h2>\n";
-  html += svg_of(trade_off(bench, SpanPrecision::f32, 2)) + svg_of(trade_off(bench, SpanPrecision::f32, 3));
-  html += svg_of(trade_off(bench, SpanPrecision::f64, 2));
+  html += "</ul>\n<h2>Error against cost</h2>\n<div class='row'>";
+  html += svg(trade_off(bench, SpanPrecision::f32, SpanShape::steep)) +
+          svg(trade_off(bench, SpanPrecision::f32, SpanShape::grazing));
+  html += svg(trade_off(bench, SpanPrecision::f64, SpanShape::steep)) + "</div>\n";
   html +=
       "<p>“alone”: one scanline at a time; “by 32”: side by side in vectors, the same bits; “fused”: with "
       "fused multiply-add and, for estimate in f32, the processor's own reciprocal estimate and one Newton "
@@ -157,7 +171,7 @@ std::string spans_html(const SpanBench& bench) {
       "follow. Newton corrects what went before, as long as its coefficient is right: computed afresh from n "
       "it stays at the level of division, added up as in Listing 1 the sum drifts and Newton follows it. "
       "An exact value every 64 pixels cures both.</p>\n";
-  html += svg_of(growth(bench, false)) + svg_of(growth(bench, true));
+  html += "<div class='row'>" + svg(growth(bench, false)) + svg(growth(bench, true)) + "</div>\n";
   html +=
       "<h2>Hard cases</h2>\n<p>Largest error in pixels, f32 | f64; “broken”: a value came out infinite or "
       "NaN. The first three columns work on a, b, c, d as they are; the others on the canonical form of a "
@@ -171,7 +185,7 @@ std::string spans_html(const SpanBench& bench) {
       bench.view_size.width, bench.view_size.height, bench.view_pixels, bench.set_up,
       bench.texturing > 0 ? fmt::format(", texturing (trilinear, reference sampler) {:.0f}", bench.texturing)
                           : "");
-  return html + view_table(bench) + "</body></html>\n";
+  return html_page("Span methods", html + view_table(bench));
 }
 
-} // namespace tilepack::cli
+} // namespace tilepack
