@@ -1,5 +1,7 @@
 #include "support/foreign_file.h"
+#include "support/images.h"
 #include "support/scratch_folder.h"
+#include "support/unprivileged.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
@@ -23,16 +25,6 @@ using OIIO::TypeDesc;
 namespace fs = std::filesystem;
 
 namespace {
-
-Image noise(Size size, int channels) {
-  Image image(size.width, size.height, channels);
-  std::uint32_t state = 7;
-  for (float& v : image.data()) {
-    state = state * 1664525u + 1013904223u;
-    v = static_cast<float>(state >> 8) / 16777216.0f;
-  }
-  return image;
-}
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -111,7 +103,8 @@ TEST_CASE("a file cut anywhere is an error, in every format and compression") {
   };
   for (const Variant& variant : variants) {
     const fs::path whole = folder.path / "whole", cut = folder.path / "cut";
-    write_foreign(whole, variant.format, noise({40, 40}, variant.channels), variant.stored, variant.spec);
+    write_foreign(whole, variant.format, test::noise(40, 40, variant.channels, 7, Depth::f32), variant.stored,
+                  variant.spec);
     CAPTURE(variant.format, variant.spec.get_string_attribute("compression"), variant.channels);
     const ImageFile image = read_image(whole);
     CHECK(image.image.size() == Size{40, 40});
@@ -159,16 +152,17 @@ TEST_CASE("what is no image file is refused with its reason") {
   REQUIRE(mkfifo((folder.path / "pipe.png").c_str(), 0600) == 0);
   CHECK_THAT(reading_error(ErrorKind::cannot_read, folder.path / "pipe.png"), Contains("not a regular file"));
 
-  write_image(file, noise({4, 4}, 3), Depth::u8, Encoding::srgb);
+  write_image(file, test::noise(4, 4, 3, 7, Depth::f32), Depth::u8, Encoding::srgb);
   fs::permissions(file, fs::perms::none);
-  if (geteuid() != 0) // root reads everything
-    CHECK_THAT(reading_error(ErrorKind::cannot_read, file), Contains("Permission denied"));
+  fs::permissions(folder.path, fs::perms::others_exec, fs::perm_options::add);
+  const test::Unprivileged other; // root reads everything
+  CHECK_THAT(reading_error(ErrorKind::cannot_read, file), Contains("Permission denied"));
 }
 
 TEST_CASE("a changed byte in a PNG is an error") {
   const ScratchFolder folder;
   const fs::path file = folder.path / "a.png";
-  write_image(file, noise({9, 9}, 3), Depth::u8, Encoding::srgb);
+  write_image(file, test::noise(9, 9, 3, 7, Depth::f32), Depth::u8, Encoding::srgb);
   const std::string bytes = bytes_of(file);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::string changed = bytes;
@@ -191,7 +185,7 @@ TEST_CASE("a header that promises more than the file can hold is refused before 
   CHECK_THAT(reading_error(ErrorKind::invalid_content, file),
              Contains("70000 x 1") && Contains("1 to 65536"));
 
-  write_foreign(file, "jpeg", noise({64, 64}, 3), TypeDesc::UINT8);
+  write_foreign(file, "jpeg", test::noise(64, 64, 3, 7, Depth::f32), TypeDesc::UINT8);
   std::string jpeg = bytes_of(file);
   const std::size_t frame = jpeg.find(std::string("\xFF\xC0\x00\x11\x08", 5));
   REQUIRE(frame != std::string::npos);
@@ -199,7 +193,7 @@ TEST_CASE("a header that promises more than the file can hold is refused before 
   put(file, jpeg);
   CHECK_THAT(reading_error(ErrorKind::cannot_read, file), Contains("truncated"));
 
-  write_image(folder.path / "a.exr", noise({64, 64}, 3), Depth::f16, Encoding::linear);
+  write_image(folder.path / "a.exr", test::noise(64, 64, 3, 7, Depth::f32), Depth::f16, Encoding::linear);
   std::string exr = bytes_of(folder.path / "a.exr");
   const std::size_t window = exr.find("dataWindow") + 11 + 6 + 4;
   exr.replace(window + 8, 8, std::string("\xFF\x1F\0\0\xFF\x1F\0\0", 8));
@@ -213,7 +207,7 @@ TEST_CASE("NaN and infinity are named with their texel and channel") {
   for (const Depth depth : {Depth::f16, Depth::f32})
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                             -std::numeric_limits<float>::infinity()}) {
-      Image image = noise({700, 500}, 3); // more than one band of float
+      Image image = test::noise(700, 500, 3, 7, Depth::f32); // more than one band of float
       image.texel(123, 456)[1] = bad;
       image.texel(5, 480)[0] = bad;
       write_image(file, image, depth, Encoding::linear);
@@ -225,9 +219,9 @@ TEST_CASE("NaN and infinity are named with their texel and channel") {
 TEST_CASE("five channels, deep and signed samples are refused, with what to do") {
   const ScratchFolder folder;
   const fs::path file = folder.path / "a";
-  write_foreign(file, "openexr", noise({8, 8}, 5), TypeDesc::HALF);
+  write_foreign(file, "openexr", test::noise(8, 8, 5, 7, Depth::f32), TypeDesc::HALF);
   CHECK_THAT(reading_error(ErrorKind::invalid_content, file), Contains("5 channels; 1 to 4"));
-  write_foreign(file, "tiff", noise({8, 8}, 1), TypeDesc::INT16);
+  write_foreign(file, "tiff", test::noise(8, 8, 1, 7, Depth::f32), TypeDesc::INT16);
   CHECK_THAT(reading_error(ErrorKind::invalid_content, file), Contains("int16 samples"));
 
   ImageSpec spec(4, 4, 1, TypeDesc::FLOAT);
@@ -245,7 +239,7 @@ TEST_CASE("an image that cannot be written leaves nothing and spares the older f
   const auto entries = [&] {
     return std::distance(fs::directory_iterator(folder.path), fs::directory_iterator());
   };
-  const Image image = noise({64, 64}, 3);
+  const Image image = test::noise(64, 64, 3, 7, Depth::f32);
   const auto writing_error = [&](ErrorKind kind, const fs::path& file, Depth depth) {
     return error_of(kind, [&] { write_image(file, image, depth, Encoding::srgb); });
   };
@@ -262,12 +256,14 @@ TEST_CASE("an image that cannot be written leaves nothing and spares the older f
                       [&] { write_image(folder.path / "a.png", Image(), Depth::u8, Encoding::srgb); }),
              Contains("0 x 0"));
   CHECK(entries() == 1);
-  if (geteuid() != 0) { // root writes everywhere
-    fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
+  const fs::perms look = fs::perms::owner_read | fs::perms::owner_exec;
+  fs::permissions(folder.path, look | fs::perms::others_read | fs::perms::others_exec);
+  {
+    const test::Unprivileged other; // root writes everywhere
     CHECK_THAT(writing_error(ErrorKind::cannot_write, folder.path / "a.png", Depth::u8),
                Contains("Permission denied"));
-    fs::permissions(folder.path, fs::perms::owner_all);
   }
+  fs::permissions(folder.path, fs::perms::owner_all);
 
   // A limit on file sizes stands for a full disk: the write that crosses it fails.
   for (const Depth depth : {Depth::u8, Depth::f32}) {

@@ -1,5 +1,6 @@
+#include "support/images.h"
+
 #include "tilepack/image/resample.h"
-#include "tilepack/numeric/random.h"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -12,17 +13,10 @@ namespace {
 constexpr ResampleFilter all_filters[] = {ResampleFilter::bilinear, ResampleFilter::bicubic,
                                           ResampleFilter::lanczos};
 
-Image noise(int side) {
-  Image image(side, side, 1);
-  for (std::size_t i = 0; i < image.data().size(); ++i)
-    image.data()[i] = static_cast<float>(random_below(7, "noise", i, 1000)) / 1000.0f;
-  return image;
-}
-
 } // namespace
 
 TEST_CASE("resampling at a texel's centre gives the texel to the last bit") {
-  const Image image = noise(9);
+  const Image image = test::noise(9, 9, 1, 7, Depth::f32);
   for (const ResampleFilter filter : all_filters)
     for (int y = 0; y < 9; ++y)
       for (int x = 0; x < 9; ++x) {

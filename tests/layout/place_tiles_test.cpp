@@ -1,3 +1,5 @@
+#include "support/images.h"
+
 #include "tilepack/error/error.h"
 #include "tilepack/layout/arrangement.h"
 #include "tilepack/layout/de_bruijn.h"
@@ -6,7 +8,6 @@
 #include "tilepack/layout/rotated_layout.h"
 #include "tilepack/layout/surroundings.h"
 #include "tilepack/layout/tile_index.h"
-#include "tilepack/numeric/random.h"
 #include "tilepack/tileset/sequential_set.h"
 
 #include <catch2/catch.hpp>
@@ -115,12 +116,7 @@ TEST_CASE("tiles that are not turned are copied") {
 
 TEST_CASE("better filters lose less in the round trip") {
   TileMap tiles{"height", Role::height, Encoding::linear, Depth::f32, {}};
-  for (int i = 0; i < 5; ++i) {
-    Image noise(32, 32, 1);
-    for (std::size_t j = 0; j < noise.data().size(); ++j)
-      noise.data()[j] = static_cast<float>(random_below(static_cast<std::uint64_t>(i), "n", j, 256)) / 255.0f;
-    tiles.tiles.push_back(noise);
-  }
+  for (std::uint64_t i = 0; i < 5; ++i) tiles.tiles.push_back(test::noise(32, 32, 1, i));
   const Layout layout = rotated_layout({2, 1, 1}, {32, 0, false}, in_order(5));
   std::vector<double> losses;
   for (const ResampleFilter filter :

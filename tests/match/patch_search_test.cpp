@@ -1,3 +1,4 @@
+#include "support/images.h"
 #include "support/samples.h"
 
 #include "tilepack/match/patch_search.h"
@@ -6,26 +7,14 @@
 
 using namespace tilepack;
 
-namespace {
-
-FeatureImage noise(int width, int height, int channels, std::uint64_t seed) {
-  FeatureImage image{width, height, channels, {}};
-  for (int i = 0; i < width * height * channels; ++i)
-    image.values.push_back(
-        static_cast<std::uint8_t>(random_below(seed, "noise", static_cast<std::uint64_t>(i), 256)));
-  return image;
-}
-
-} // namespace
-
 TEST_CASE("mismatches by Fourier transform equal those counted texel by texel") {
   struct Case {
     int width, height, channels, patch_width, patch_height;
   };
   for (const Case& c :
        {Case{37, 23, 3, 9, 5}, Case{16, 16, 1, 16, 16}, Case{41, 50, 4, 1, 1}, Case{64, 30, 16, 30, 30}}) {
-    const FeatureImage image = noise(c.width, c.height, c.channels, 3);
-    const FeatureImage layers = noise(c.patch_width, c.patch_height, c.channels, 4);
+    const FeatureImage image = test::noise_features(c.width, c.height, c.channels, 3);
+    const FeatureImage layers = test::noise_features(c.patch_width, c.patch_height, c.channels, 4);
     Overlap overlap(c.patch_width, c.patch_height, c.channels);
     std::vector<int> weights;
     for (int y = 0; y < c.patch_height; ++y)
@@ -55,7 +44,7 @@ TEST_CASE("mismatches by Fourier transform equal those counted texel by texel") 
 }
 
 TEST_CASE("a patch taken from the image is found where it was taken") {
-  const FeatureImage image = noise(60, 44, 3, 9);
+  const FeatureImage image = test::noise_features(60, 44, 3, 9);
   Overlap overlap(12, 8, 3);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 12; ++x) overlap.add(x, y, image.texel(31 + x, 17 + y));

@@ -1,3 +1,5 @@
+#include "support/images.h"
+
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mip/least_squares.h"
@@ -22,12 +24,8 @@ std::size_t as_size(int i) {
 
 std::vector<Image> noise(int count, Size size, int channels, std::uint64_t seed) {
   std::vector<Image> tiles;
-  std::uint64_t index = 0;
-  for (int i = 0; i < count; ++i) {
-    Image tile(size.width, size.height, channels);
-    for (float& v : tile.data()) v = static_cast<float>(random_below(seed, "noise", index++, 1000)) / 1000.0f;
-    tiles.push_back(tile);
-  }
+  for (int i = 0; i < count; ++i)
+    tiles.push_back(test::noise(size.width, size.height, channels, 100 * seed + as_size(i), Depth::f32));
   return tiles;
 }
 

@@ -1,6 +1,7 @@
+#include "support/images.h"
+
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/mip/shared_border.h"
-#include "tilepack/numeric/random.h"
 
 #include <tbb/global_control.h>
 
@@ -28,11 +29,9 @@ TileSet corner_set(Size size, int k) {
 // Every texel of every tile its own random 8-bit value.
 TileSet with_noise(TileSet set, int channels, Role role = Role::color, Encoding encoding = Encoding::srgb) {
   TileMap map{"map", role, encoding, Depth::u8, {}};
-  std::uint64_t index = 0;
   for (int id = 0; id < tile_count(set.tiles); ++id) {
-    Image tile(set.tile_size.width, set.tile_size.height, channels);
-    for (float& v : tile.data()) v = static_cast<float>(random_below(1, "noise", index++, 256)) / 255.0f;
-    map.tiles.push_back(tile);
+    const auto seed = static_cast<std::uint64_t>(id);
+    map.tiles.push_back(test::noise(set.tile_size.width, set.tile_size.height, channels, seed));
   }
   set.maps.push_back(map);
   return set;

@@ -1,3 +1,5 @@
+#include "support/images.h"
+
 #include "tilepack/image/encoding.h"
 #include "tilepack/mip/downsample.h"
 #include "tilepack/mip/srgb_tables.h"
@@ -31,9 +33,7 @@ Image encoded_by(const Image& linear, const SrgbKernel& kernel) {
 }
 
 Image random_codes(int width, int height, int channels) {
-  Image image(width, height, channels);
-  std::uint64_t index = 0;
-  for (float& v : image.data()) v = static_cast<float>(random_below(1, "code", index++, 256)) / 255.0f;
+  Image image = test::noise(width, height, channels, 1);
   for (int y = 0; y < 2; ++y) // where all is clear, color counts by quarters
     for (int x = 0; x < 2 && channels % 2 == 0; ++x) image.texel(x, y).back() = 0.0f;
   return image;

@@ -27,6 +27,12 @@ def files(*endings, below=""):
     return found
 
 
+def house(heading):
+    """A section of lib/README.md, the map of the house."""
+    with open(os.path.join(SOURCE, "lib/README.md"), encoding="utf-8") as stream:
+        return re.search(rf"^## {heading}.*?\n(.*?)(?=^## |\Z)", stream.read(), re.MULTILINE | re.DOTALL).group(1)
+
+
 class Rules(unittest.TestCase):
     def none_of(self, faults, rule):
         self.assertEqual(faults, [], rule)
@@ -44,6 +50,52 @@ class Rules(unittest.TestCase):
                 elif ROOMS.index(parts[1]) > ROOMS.index(folder):
                     faults.append(f"{path}: includes {included}, which is above it")
         self.none_of(faults, "the order of rooms is " + " ".join(ROOMS))
+
+    def test_every_room_is_told_of(self):
+        told = [re.match(r"\| `([a-z]+)` \| \S", line) for line in house("The rooms").splitlines()]
+        self.assertEqual([m.group(1) for m in told if m], ROOMS, "lib/README.md has a line a room, low to high")
+        found = {path.split(os.sep)[2] for path, _ in files(".h", below="lib/tilepack")}
+        self.none_of(sorted(found - set(ROOMS)), "every folder of lib/tilepack is a room")
+
+    def test_what_the_map_of_the_house_points_at_is_there(self):
+        pages = {path.split(os.sep, 2)[2]: text for path, text in files(".h", ".cpp", ".md", below="lib/tilepack")}
+        faults, told = [], 0
+        for line in house("Where is").splitlines():
+            cells = line.split("|")[1:-1]
+            if len(cells) != 3 or "`" not in cells[1] or cells[0].strip() == "…":
+                continue
+            told += 1
+            named = re.findall(r"`([^`]+/[^`]+)`", cells[1])
+            faults += [f"no {file}" for file in named if file not in pages]
+            text = "".join(pages.get(file, "") for file in named)
+            faults += [f"no {word} in {' '.join(named)}" for word in re.findall(r"`(\w+)`", cells[2]) if word not in text]
+        self.assertGreater(told, 30)
+        self.none_of(faults, "lib/README.md: whoever looks for something finds it")
+
+    def test_one_word_for_one_idea(self):
+        never = []
+        for line in house("Words").splitlines():
+            cells = line.split("|")[1:-1]
+            if len(cells) == 3 and cells[0].strip() not in ("word", "---"):
+                never += [word.strip() for word in cells[2].split(",") if word.strip()]
+        self.assertGreater(len(never), 15)
+        pattern = re.compile(r"\b(" + "|".join(map(re.escape, never)) + r")s?\b", re.IGNORECASE)
+        faults = []
+        for below in ("lib", "cli"):
+            for path, text in files(".h", ".cpp", ".cpp.in", ".md", below=below):
+                if path != os.path.join("lib", "README.md"):
+                    faults += [f"{path}: {m.group()}" for m in pattern.finditer(text)]
+        self.none_of(faults, "lib/README.md has the word to use instead")
+
+    def test_headers_say_what_they_are(self):
+        faults = [path for path, text in files(".h", below="lib") + files(".h", below="cli") + files(".h", below="tests/support")
+                  if "///" not in text]
+        self.none_of(faults, "a header's comment, after ///, is its documentation")
+
+    def test_tests_mirror_the_rooms(self):
+        beside = {"cli", "repo", "install", "quality", "support"}
+        found = {path.split(os.sep)[1] for path, _ in files(".cpp", ".h", ".py", ".cmake", below="tests") if path.count(os.sep) > 1}
+        self.none_of(sorted(found - beside - set(ROOMS)), "tests/ROOM tests lib/tilepack/ROOM")
 
     def test_no_headers_include_each_other_in_a_circle(self):
         includes = {}

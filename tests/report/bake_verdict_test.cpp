@@ -1,5 +1,6 @@
+#include "support/images.h"
+
 #include "tilepack/bake/bake_fields.h"
-#include "tilepack/numeric/random.h"
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/bake_pictures.h"
 #include "tilepack/report/pack_picture.h"
@@ -42,13 +43,6 @@ bool says(const BakeFacts& facts, Grade grade, const std::string& text) {
   return std::any_of(verdict.remarks.begin(), verdict.remarks.end(), [&](const BakeRemark& r) {
     return r.grade == grade && r.text.find(text) != std::string::npos;
   });
-}
-
-SampleMap noise_sample(int side) {
-  Image image(side, side, 3);
-  for (std::size_t i = 0; i < image.data().size(); ++i)
-    image.data()[i] = static_cast<float>(random_below(3, "verdict test", i, 256)) / 255.0f;
-  return {"color", Role::color, Encoding::srgb, Depth::u8, std::move(image)};
 }
 
 BakedPack small_bake(const std::vector<SampleMap>& samples, const std::string& coloring,
@@ -246,7 +240,8 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
 }
 
 TEST_CASE("flattening is advised where it helps", "[bake_verdict]") {
-  std::vector<SampleMap> samples{noise_sample(128)};
+  std::vector<SampleMap> samples{
+      {"color", Role::color, Encoding::srgb, Depth::u8, test::noise(128, 128, 3, 3)}};
   CHECK(bake_facts(small_bake(samples, "corner"), samples).flat_drift == 0); // not looked for
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 128; ++x)
@@ -266,7 +261,8 @@ TEST_CASE("flattening is advised where it helps", "[bake_verdict]") {
 }
 
 TEST_CASE("pictures show tiles, uses and sources where they are", "[bake_pictures]") {
-  const std::vector<SampleMap> samples{noise_sample(64)};
+  const std::vector<SampleMap> samples{
+      {"color", Role::color, Encoding::srgb, Depth::u8, test::noise(64, 64, 3, 3)}};
   const FeatureImage features = feature_image(samples);
   const Image& sample = samples[0].image;
   for (const char* coloring : {"edge", "corner"}) {
@@ -332,7 +328,8 @@ TEST_CASE("large tiles and samples make no larger pictures", "[bake_pictures]") 
 }
 
 TEST_CASE("the page holds verdict, pictures and figures, and only them", "[bake_page]") {
-  const std::vector<SampleMap> samples{noise_sample(64)};
+  const std::vector<SampleMap> samples{
+      {"color", Role::color, Encoding::srgb, Depth::u8, test::noise(64, 64, 3, 3)}};
   const BakedPack made = small_bake(samples, "corner");
   const BakeSummary story{"a<b>.png", bake_facts(made, samples), {{"frame search", 0.75}, {"writing", 0.25}}};
   const std::string page = bake_page(story, made, samples);

@@ -1,3 +1,4 @@
+#include "support/images.h"
 #include "support/samples.h"
 
 #include "tilepack/seam/graph_cut.h"
@@ -7,14 +8,6 @@
 using namespace tilepack;
 
 namespace {
-
-FeatureImage noise(int width, int height, std::uint64_t seed) {
-  FeatureImage image{width, height, 3, {}};
-  for (int i = 0; i < width * height * 3; ++i)
-    image.values.push_back(
-        static_cast<std::uint8_t>(random_below(seed, "noise", static_cast<std::uint64_t>(i), 256)));
-  return image;
-}
 
 // A canvas of vertical bands from different places, so that it has seams of its own.
 SourceCanvas banded(int width, int height, std::uint64_t seed) {
@@ -59,7 +52,7 @@ std::int64_t least_by_trying(const FeatureImage& image, const SourceCanvas& star
 } // namespace
 
 TEST_CASE("a laid patch never raises the seam energy") {
-  const FeatureImage image = noise(48, 48, 1);
+  const FeatureImage image = test::noise_features(48, 48, 3, 1);
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SourceCanvas canvas = banded(20, 16, seed);
     const std::int64_t before = seam_energy(image, canvas);
@@ -72,7 +65,7 @@ TEST_CASE("a laid patch never raises the seam energy") {
 }
 
 TEST_CASE("a laid patch over a canvas without seams is the best of all ways to lay it") {
-  const FeatureImage image = noise(24, 24, 2);
+  const FeatureImage image = test::noise_features(24, 24, 3, 2);
   for (std::uint64_t seed = 0; seed < 25; ++seed) {
     SourceCanvas canvas(5, 4);
     for (int y = 0; y < 4; ++y)
@@ -91,7 +84,7 @@ TEST_CASE("a laid patch over a canvas without seams is the best of all ways to l
 }
 
 TEST_CASE("a laid patch keeps what must stay and takes what must go") {
-  const FeatureImage image = noise(40, 40, 3);
+  const FeatureImage image = test::noise_features(40, 40, 3, 3);
   const SourceCanvas start = banded(12, 9, 5);
   SourceCanvas canvas = start;
   LaidPatch patch{{3, 2, 6, 5}, {11, 13}, {}};
@@ -110,7 +103,7 @@ TEST_CASE("a laid patch keeps what must stay and takes what must go") {
 }
 
 TEST_CASE("texels that are neighbours in the sample have no seam") {
-  const FeatureImage image = noise(10, 10, 4);
+  const FeatureImage image = test::noise_features(10, 10, 3, 4);
   CHECK(seam_cost(image, {3, 3}, {4, 3}, 1, 0) == 0);
   CHECK(seam_cost(image, {3, 3}, {3, 4}, 0, 1) == 0);
   CHECK(seam_cost(image, {3, 3}, {5, 3}, 1, 0) > 0);

@@ -2,10 +2,10 @@
 
 #include "tilepack/check/issues.h"
 #include "tilepack/layout/tile_index.h"
+#include "tilepack/mip/level_size.h"
+#include "tilepack/mip/mip_chain.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/pack/pack.h"
-#include "tilepack/mip/mip_chain.h"
-#include "tilepack/mip/level_size.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

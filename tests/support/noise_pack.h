@@ -1,11 +1,12 @@
 #pragma once
 
+#include "support/images.h"
+
 #include "tilepack/image/encoding.h"
 #include "tilepack/layout/de_bruijn.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/mapping.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/numeric/random.h"
 #include "tilepack/pack/pack.h"
 
 #include <filesystem>
@@ -13,15 +14,8 @@
 
 namespace tilepack::test {
 
-inline Image noise(int width, int height, int channels, std::uint64_t seed) {
-  Image image(width, height, channels);
-  for (std::size_t i = 0; i < image.data().size(); ++i)
-    image.data()[i] = static_cast<float>(random_below(seed, "test noise", i, 256)) / 255.0f;
-  return image;
-}
-
-// A pack of noise, made without synthesis: two edge colors, 8 x 4 texels a tile, a color map of 8 bits and a
-// height map of the depth asked for.
+/// A pack of noise, made without synthesis: two edge colors, 8 x 4 texels a tile, a color map of 8 bits and a
+/// height map of the depth asked for.
 inline Pack noise_pack(MappingKind mapping = MappingKind::permutation, Depth height_depth = Depth::u16,
                        std::uint64_t seed = 1) {
   TileSet set;

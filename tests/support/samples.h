@@ -1,7 +1,8 @@
 #pragma once
 
+#include "support/images.h"
+
 #include "tilepack/exemplar/feature_image.h"
-#include "tilepack/numeric/random.h"
 #include "tilepack/synth/synthesize.h"
 #include "tilepack/tileset/source_map.h"
 
@@ -11,9 +12,7 @@ namespace tilepack::testing {
 
 /// A sample of soft random blobs in three channels: the mean of noise over squares, so neighbours are alike.
 inline Image blobs(int width, int height, std::uint64_t seed = 1, int channels = 3) {
-  Image noise(width, height, channels);
-  for (std::size_t i = 0; i < noise.data().size(); ++i)
-    noise.data()[i] = static_cast<float>(random_below(seed, "blobs", i, 256)) / 255.0f;
+  const Image noise = test::noise(width, height, channels, seed, Depth::u8, "blobs");
   Image image(width, height, channels);
   constexpr int reach = 3;
   for (int y = 0; y < height; ++y)

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "support/images.h"
+
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/numeric/random.h"
 #include "tilepack/pack/pack.h"
 
 namespace tilepack {
@@ -18,15 +19,6 @@ struct SmallPack {
   Encoding encoding = Encoding::srgb;
   Depth depth = Depth::u8;
 };
-
-inline Image random_image(int width, int height, int channels, Depth depth, std::uint64_t seed) {
-  Image image(width, height, channels);
-  std::uint64_t index = 0;
-  for (float& value : image.data())
-    value =
-        quantised(static_cast<float>(random_below(seed, "texel", index++, 1u << 20)) / float(1 << 20), depth);
-  return image;
-}
 
 inline Pack small_pack(const SmallPack& wanted = {}) {
   Pack pack;
@@ -44,8 +36,8 @@ inline Pack small_pack(const SmallPack& wanted = {}) {
   map.channels = wanted.channels;
   for (int level = 0; level < pack.tile_levels; ++level) {
     const Size tile = level_size(wanted.tile_size, level);
-    map.levels.push_back(random_image(pack.layout.columns * tile.width, pack.layout.rows * tile.height,
-                                      wanted.channels, wanted.depth, static_cast<std::uint64_t>(level)));
+    map.levels.push_back(test::noise(pack.layout.columns * tile.width, pack.layout.rows * tile.height,
+                                     wanted.channels, static_cast<std::uint64_t>(level), wanted.depth));
   }
   pack.maps.push_back(map);
   pack.mapping = permutation_mapping(wanted.virtual_size, wanted.colors, 7);

@@ -1,3 +1,5 @@
+#include "support/images.h"
+
 #include "tilepack/match/row_correlation.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/synth/border_match_costs.h"
@@ -11,20 +13,17 @@ using namespace tilepack;
 namespace {
 
 // Bytes of all values, the extremes often.
-FeatureImage noise(int width, int height, int channels) {
-  FeatureImage image{width, height, channels, {}};
-  const auto count = static_cast<std::size_t>(width * height * channels);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto value = static_cast<std::uint8_t>(random_below(7, "byte", i, 256));
-    image.values.push_back(i % 3 == 0 ? static_cast<std::uint8_t>(value < 128 ? 0 : 255) : value);
-  }
+// Noise, every third value at an end of the range.
+FeatureImage extreme_noise(int width, int height, int channels) {
+  FeatureImage image = test::noise_features(width, height, channels, 7);
+  for (std::size_t i = 0; i < image.values.size(); i += 3) image.values[i] = image.values[i] < 128 ? 0 : 255;
   return image;
 }
 
 } // namespace
 
 TEST_CASE("rows of pairs are correlated as by the plain sum, at every stride and number of places") {
-  const FeatureImage image = noise(173, 9, 3);
+  const FeatureImage image = extreme_noise(173, 9, 3);
   for (const int stride : {1, 2, 5})
     for (const int places : {1, 4, 15, 16, 17, 63, 64, 65, 100}) {
       const PairPlanes pairs(image, stride);
@@ -71,8 +70,8 @@ TEST_CASE("sums of many largest products do not overflow") {
 
 // The definition, texel by texel: what the frame shows of a tile within `reach` of one border, less the parts
 // that belong to the strips of the other direction.
-TEST_CASE("match_costs are the differences between what strips show and what insides would show there") {
-  const FeatureImage image = noise(60, 52, 3);
+TEST_CASE("match costs are the differences between what strips show and what insides would show there") {
+  const FeatureImage image = extreme_noise(60, 52, 3);
   for (const Size tile : {Size{24, 18}, Size{17, 25}}) {
     SynthOptions options;
     options.tile_size = {tile.width, tile.height};

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double same_error = 0.1;       // 8-bit units: nobody sees less
 constexpr double same_error_share = 0.1; // and of an error
-constexpr double same_time = 0.1;        // of a time: what differs less between two runs of a quiet machine
+constexpr double same_time = 0.2;        // of a time: ratios of one run and the next differ by so much
 constexpr double wrong_float = 0.5;      // 8-bit units by which a coordinate held in a float may be off
 
 bool as_good(double error, double best) {

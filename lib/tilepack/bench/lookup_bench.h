@@ -51,7 +51,7 @@ struct LookupCost {
   double nanoseconds = 0;   ///< a sample, one thread, median
   double off_reference = 0; ///< largest difference from the reference sampler, 8-bit units of linear light
   double rms_truth = 0;     ///< RMS against the ground truth, 8-bit units of the encoded value
-  double noise = 0;         ///< quartile_spread() of the rounds
+  double noise = 0;         ///< quartile_spread() of the rounds; 0.15 for fewer than four
 };
 std::string_view corners_of(const LookupCost& cost); ///< "corner pack", "tiles alone"
 

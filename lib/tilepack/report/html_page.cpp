@@ -18,7 +18,7 @@ td:first-child, th:first-child { text-align: left } .words td, .words th { text-
 .told td:nth-child(-n+2), .told th:nth-child(-n+2), .costs td:nth-child(-n+5), .costs th:nth-child(-n+5) { text-align: left }
 .verdict, .advice { border-left: 5px solid; padding: .6em 1em; background: #f6f8fa }
 .verdict ul, .advice ul { margin: .3em 0; padding-left: 1.2em } .advice { border-color: #0072b2 }
-.good { border-color: #00704f } .fair { border-color: #c98500 } .poor { border-color: #b3261e }
+.verdict.good { border-color: #00704f } .verdict.fair { border-color: #c98500 } .verdict.poor { border-color: #b3261e }
 b.good, td.good { color: #00704f } b.fair { color: #8f5f00 } b.poor { color: #b3261e }
 td.bad { color: #b3261e; font-weight: bold; background: #fdeceb } .best { color: #00704f; font-weight: bold }
 .row { display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start; margin: 1em 0 }

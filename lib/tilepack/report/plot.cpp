@@ -12,7 +12,7 @@ namespace tilepack {
 namespace {
 
 // Of the plot with its labels, without the legend.
-constexpr double width = 480, height = 340, left = 62, right = 16, top = 34, bottom = 48;
+constexpr double width = 480, height = 340, left = 72, right = 24, top = 34, bottom = 48;
 constexpr double legend_row = 19;
 // Distinct also for people who don't see colors well.
 constexpr std::array palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
