@@ -2,6 +2,8 @@
 
 #include "interrupt.h"
 
+#include "tilepack/error/printable.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -43,7 +45,7 @@ void Console::line(std::string_view word, const char* color, std::string_view me
   erase_progress();
   std::string text = command_name + ": ";
   if (!word.empty()) text += colored ? fmt::format("{}{}\033[0m: ", color, word) : fmt::format("{}: ", word);
-  text += message;
+  text += printable(message); // names of files and what they hold may be anything
   text += '\n';
   std::fwrite(text.data(), 1, text.size(), stderr);
 }

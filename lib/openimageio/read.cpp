@@ -35,6 +35,36 @@ std::optional<Encoding> stated_encoding(const OIIO::ImageSpec& spec, ImageFormat
   return OIIO::Strutil::iequals(space, "linear") ? Encoding::linear : Encoding::srgb;
 }
 
+std::vector<std::byte> profile_of(const OIIO::ImageSpec& spec) {
+  const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
+  if (!profile) return {};
+  const auto* data = static_cast<const std::byte*>(profile->data());
+  return {data, data + profile->datasize()};
+}
+
+void add_notes(RasterInfo& info, OIIO::ImageInput& input, const OIIO::ImageSpec& spec, ImageFormat format) {
+  if (format == ImageFormat::tiff && spec.alpha_channel < 0 && (spec.nchannels == 2 || spec.nchannels == 4)) {
+    info.alpha_channel = spec.nchannels - 1;
+    info.associated_alpha = false;
+    info.alpha_is_unsaid = true;
+  }
+  const bool has_window = spec.full_width > 0 && spec.full_height > 0;
+  if (format == ImageFormat::exr && has_window && spec.roi() != spec.roi_full())
+    info.notes.push_back(OIIO::Strutil::fmt::format("has a display window of {} x {} at ({}, {}) and texels "
+                                                    "of {} x {} at ({}, {}), all of which are taken; "
+                                                    "crop it to what is to be seen",
+                                                    spec.full_width, spec.full_height, spec.full_x,
+                                                    spec.full_y, spec.width, spec.height, spec.x, spec.y));
+  if (format != ImageFormat::exr && format != ImageFormat::tiff) return;
+  if (const OIIO::ImageSpec second = input.spec(1, 0); second.width > 0) {
+    const std::string first_name = spec.get_string_attribute("oiio:subimagename");
+    const std::string name = second.get_string_attribute("oiio:subimagename");
+    info.notes.push_back(OIIO::Strutil::fmt::format(
+        "holds several images{}, of which the first is read; save the one that is meant alone",
+        first_name.empty() ? "" : " (" + first_name + ", " + name + ", …)"));
+  }
+}
+
 struct OpenFile {
   std::unique_ptr<OIIO::ImageInput> input;
   OIIO::ImageSpec spec;
@@ -75,6 +105,20 @@ RasterReader open_image(const std::filesystem::path& file, ImageFormat format) {
   info.sample_name = spec.format.c_str();
   info.encoding = stated_encoding(spec, format);
   info.channel_names = spec.channelnames;
+  info.names_are_free = format == ImageFormat::exr;
+  info.alpha_channel = spec.alpha_channel;
+  info.associated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+  if (format == ImageFormat::exr)
+    for (int c = 0; c < spec.nchannels; ++c)
+      if (spec.channelformat(c) == OIIO::TypeDesc::UINT32) info.whole_numbers.push_back(c);
+  // Decoders turn round what has up to 8 bits.
+  info.white_is_zero = format == ImageFormat::tiff &&
+                       spec.get_int_attribute("tiff:PhotometricInterpretation", 1) == 0 &&
+                       spec.format.size() > 1;
+  info.orientation = spec.get_int_attribute("Orientation", 1);
+  info.profile = profile_of(spec);
+  add_notes(info, *opened->input, spec, format);
+  opened->input->geterror(); // that there is no second image is no fault
   info.tile_width = spec.tile_width;
   info.tile_height = spec.tile_height;
   info.strip_rows = spec.get_int_attribute("tiff:RowsPerStrip", info.strip_rows);

@@ -4,7 +4,7 @@
 
 namespace tilepack {
 
-/// What TextureFunctions points to.
+/// What TextureSystem points to.
 TextureMaker texture_maker(Size size, int channels, Depth depth,
                            const std::function<Image(int top, int rows)>& band);
 double maketx(const std::filesystem::path& image, const std::filesystem::path& texture);

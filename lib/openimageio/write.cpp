@@ -85,6 +85,15 @@ struct CreatedFile {
 
 } // namespace
 
+void warm_up() {
+  constexpr int side = 256;
+  const RasterWriter writer =
+      create_exr([](std::uint64_t, std::span<const std::byte>) {}, {side, side}, 4, Depth::f16);
+  const std::vector<std::byte> rows(std::size_t{side} * side * 4 * 2);
+  writer.write(0, side, rows);
+  writer.finish();
+}
+
 RasterWriter create_exr(ByteSink sink, Size size, int channels, Depth depth) {
   auto file = std::make_shared<CreatedFile>(std::move(sink));
   file->type = stored_type(depth);

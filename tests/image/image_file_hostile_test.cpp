@@ -143,7 +143,7 @@ TEST_CASE("what is no image file is refused with its reason") {
   for (const char* text :
        {"plain text, long enough for any header\n", "\x89PN", "GIF89a", "{}", "\xFF\xD8"}) {
     put(file, text);
-    CHECK_THAT(reading_error(ErrorKind::cannot_read, file), Contains("is no PNG, JPEG, TIFF or EXR"));
+    CHECK_THAT(reading_error(ErrorKind::cannot_read, file), Contains("is no PNG, JPEG, TIFF, EXR, TGA"));
     CHECK_THAT(error_of(ErrorKind::cannot_read, [&] { read_image_header(file); }), Contains("is no PNG"));
   }
   put(file, "");
@@ -220,7 +220,8 @@ TEST_CASE("five channels, deep and signed samples are refused, with what to do")
   const ScratchFolder folder;
   const fs::path file = folder.path / "a";
   write_foreign(file, "openexr", test::noise(8, 8, 5, 7, Depth::f32), TypeDesc::HALF);
-  CHECK_THAT(reading_error(ErrorKind::invalid_content, file), Contains("5 channels; 1 to 4"));
+  CHECK_THAT(reading_error(ErrorKind::invalid_content, file),
+             Contains("R, G, B, A, channel4") && Contains("channels R,G,B"));
   write_foreign(file, "tiff", test::noise(8, 8, 1, 7, Depth::f32), TypeDesc::INT16);
   CHECK_THAT(reading_error(ErrorKind::invalid_content, file), Contains("int16 samples"));
 

@@ -44,8 +44,10 @@ TEST_CASE("every depth and channel count comes back exactly, with its header") {
       for (const Size size : {Size{1, 1}, Size{37, 19}, Size{300, 2}}) {
         const fs::path file = folder.path / ("a." + std::string(name_of(usual_container(depth))));
         const Image image = pattern(size, channels, depth);
-        write_image(file, image, depth, Encoding::srgb);
-        const ImageFile back = read_image(file);
+        write_image(file, image, StoredFormat{usual_container(depth), depth, Encoding::srgb});
+        ReadOptions options;
+        options.alpha = AlphaReading::as_stored;
+        const ImageFile back = read_image(file, options);
         CAPTURE(name_of(depth), channels, size.width);
         CHECK(back.image == image);
         CHECK(back.depth == depth);

@@ -21,8 +21,8 @@ TEST_CASE("a map is stored as near to what it is as the request lets it", "[pack
   };
   const Row rows[] = {
       {Role::color, srgb, Depth::u8, {}, {png, Depth::u8, srgb}, {png, Depth::u8, srgb}},
-      {Role::color, srgb, Depth::u8, {exr, {}}, {exr, Depth::f16, linear}, {exr, Depth::f16, linear}},
-      {Role::color, srgb, Depth::u16, {exr, {}}, {exr, Depth::f16, linear}, {exr, Depth::f32, linear}},
+      {Role::color, srgb, Depth::u8, {exr, {}}, {exr, Depth::f16, linear}, {exr, Depth::f16, linear, true}},
+      {Role::color, srgb, Depth::u16, {exr, {}}, {exr, Depth::f16, linear}, {exr, Depth::f32, linear, true}},
       {Role::color, linear, Depth::f32, {png, {}}, {png, Depth::u16, srgb}, {png, Depth::u16, srgb}},
       {Role::color, linear, Depth::f32, {png, Depth::u8}, {png, Depth::u8, srgb}, {png, Depth::u8, srgb}},
       {Role::color,
@@ -30,10 +30,10 @@ TEST_CASE("a map is stored as near to what it is as the request lets it", "[pack
        Depth::f16,
        {{}, Depth::f32},
        {exr, Depth::f32, linear},
-       {exr, Depth::f32, linear}},
-      {Role::color, srgb, Depth::f16, {exr, {}}, {exr, Depth::f16, srgb}, {exr, Depth::f16, linear}},
+       {exr, Depth::f32, linear, true}},
+      {Role::color, srgb, Depth::f16, {exr, {}}, {exr, Depth::f16, srgb}, {exr, Depth::f16, linear, true}},
       {Role::height, linear, Depth::f32, {png, {}}, {png, Depth::u16, linear}, {png, Depth::u16, linear}},
-      {Role::data, srgb, Depth::u8, {exr, {}}, {exr, Depth::f16, srgb}, {exr, Depth::f16, linear}},
+      {Role::data, srgb, Depth::u8, {exr, {}}, {exr, Depth::f16, srgb}, {exr, Depth::f16, linear, true}},
   };
   for (const Row& row : rows) {
     CAPTURE(&row - rows);

@@ -19,8 +19,10 @@ using TextureLookup = std::function<void(const LookupFrame& frame, std::span<flo
 /// Lookups that OpenImageIO's texture system takes at once.
 constexpr std::size_t texture_batch = 16;
 
-/// What the module of openimageio_module.h can do with textures: symbol `tilepack_texture_functions`.
-struct TextureFunctions {
+/// What the module of openimageio_module.h can do with textures.
+struct TextureSystem {
+  static constexpr const char* symbol = "tilepack_texture_system";
+
   /// Takes an image in by bands of whole rows from the top, values as stored. The texture made of it repeats
   /// and has tiles of 64 x 64 and box-filtered mips, as maketx makes them.
   TextureMaker (*maker)(Size size, int channels, Depth depth,

@@ -28,13 +28,9 @@ Pack as_linear(const Pack& pack, int map) {
   return result;
 }
 
-const TextureFunctions& openimageio() {
-  return *static_cast<const TextureFunctions*>(openimageio_symbol("tilepack_texture_functions"));
-}
-
 TextureMaker texture_of(const Pack& pack, Size size) {
   const PackedMap& map = pack.maps[0];
-  return openimageio().maker(size, map.channels, map.depth, [&](int top, int rows) {
+  return openimageio<TextureSystem>().maker(size, map.channels, map.depth, [&](int top, int rows) {
     return virtual_texture(pack, 0, 0, {0, top, size.width, rows});
   });
 }
@@ -141,7 +137,7 @@ std::vector<BenchRatio> mip_ratios(const Pack& pack, const std::filesystem::path
     write_levels(folder, set.maps[0], coarser);
     const BenchTime written = bench_time();
     double levels_alone = 0;
-    make_texture([&](const std::filesystem::path& file) { levels_alone = openimageio().maketx(image, file); },
+    make_texture([&](const std::filesystem::path& file) { levels_alone = openimageio<TextureSystem>().maketx(image, file); },
                  folder / "mips.tx");
     const BenchTime end = bench_time();
     const double theirs = end.wall - written.wall;
@@ -178,7 +174,7 @@ std::vector<BenchRatio> bench_stored_texture(const Pack& original, int map,
   LookupFrame over_whole = in_tiles;
   for (float& x : over_whole.x) x /= static_cast<float>(columns);
   for (float& y : over_whole.y) y /= static_cast<float>(rows);
-  const TextureLookup stored = openimageio().open(folder / "stored.tx", pack.maps[0].channels, size);
+  const TextureLookup stored = openimageio<TextureSystem>().open(folder / "stored.tx", pack.maps[0].channels, size);
   std::vector<float> theirs(LookupFrame::bucket * static_cast<std::size_t>(pack.maps[0].channels));
   std::vector<float> ours(theirs.size());
   std::vector<float*> pointers;

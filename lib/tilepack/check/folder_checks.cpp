@@ -99,7 +99,7 @@ LoadedFile load(const fs::path& folder, const AnnouncedFile& announced) {
     check_header(announced, header, loaded.issues);
     // An image of the wrong size is not decoded: the announced size is what limits memory.
     if (!loaded.issues.empty()) return loaded;
-    loaded.image = read_image(path, Encoding::linear).image;
+    loaded.image = read_image(path, pack_reading(Encoding::linear)).image;
   } catch (const Error& error) {
     const bool values = header_read && error.kind() == ErrorKind::invalid_content;
     refuse(values ? Rule::not_finite : Rule::file_unreadable, error.what(),

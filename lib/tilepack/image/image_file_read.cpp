@@ -1,7 +1,10 @@
 #include "tilepack/error/error.h"
+#include "tilepack/image/channel_choice.h"
+#include "tilepack/image/icc_profile.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/image/image_format.h"
 #include "tilepack/image/openimageio_module.h"
+#include "tilepack/image/orientation.h"
 #include "tilepack/image/png_file.h"
 
 #include <fmt/format.h>
@@ -29,8 +32,12 @@ constexpr std::size_t max_band_bytes = std::size_t{256} << 20;
 struct Source {
   std::string name;
   RasterReader reader;
+  ChannelChoice choice;
   ImageHeader header;
 };
+
+// Beyond this, rows of all channels would take more memory than the image.
+constexpr int most_file_channels = 1024;
 
 Error unreadable(const std::string& name, const std::string& reason) {
   std::string line = reason.substr(0, reason.find('\n'));
@@ -62,12 +69,26 @@ bool is_float(Depth depth) {
   return depth == Depth::f16 || depth == Depth::f32;
 }
 
-ImageHeader checked_header(const std::string& name, const RasterInfo& info) {
+ChannelChoice chosen_channels(const std::string& name, const RasterInfo& info, const ReadOptions& options) {
   if (info.deep) throw Error(ErrorKind::invalid_content, name, "holds deep samples; flatten it to one layer");
-  if (info.channels < 1 || info.channels > 4)
+  if (info.channels < 1 || info.channels > most_file_channels)
     throw Error(ErrorKind::invalid_content, name,
                 fmt::format("has {} channels; 1 to 4 are allowed: keep the ones that belong to one map",
                             info.channels));
+  if (!options.channels.empty()) return channels_asked(options.channels, info.channel_names, name);
+  if (info.names_are_free) return channels_by_name(info.channel_names, name);
+  if (info.channels > 4)
+    throw Error(ErrorKind::invalid_content, name,
+                fmt::format("has {} channels; 1 to 4 are allowed: choose those of one map with {}",
+                            info.channels, field("channels", "R,G,B")));
+  ChannelChoice choice;
+  for (int c = 0; c < info.channels; ++c) choice.from.push_back(c);
+  choice.alpha = info.alpha_channel;
+  return choice;
+}
+
+ImageHeader checked_header(const std::string& name, const RasterInfo& info, const ChannelChoice& choice,
+                           const ReadOptions& options) {
   if (info.width < 1 || info.height < 1 || info.depth > 1 || info.width > max_image_side ||
       info.height > max_image_side)
     throw Error(ErrorKind::invalid_content, name,
@@ -75,21 +96,89 @@ ImageHeader checked_header(const std::string& name, const RasterInfo& info) {
                             info.height, info.depth, max_image_side));
   ImageHeader header;
   header.size = {static_cast<int>(info.width), static_cast<int>(info.height)};
-  header.channels = info.channels;
+  if (swaps_sides(info.orientation)) std::swap(header.size.width, header.size.height);
+  header.channels = static_cast<int>(choice.from.size());
   header.depth = depth_of(name, info);
+  for (const int c : info.whole_numbers)
+    if (std::find(choice.from.begin(), choice.from.end(), c) != choice.from.end())
+      throw Error(
+          ErrorKind::invalid_content, name,
+          fmt::format("holds whole numbers in channel {}, which count or name things and have no mean; "
+                      "convert it to floats",
+                      info.channel_names[static_cast<std::size_t>(c)]));
   header.encoding = info.encoding.value_or(is_float(header.depth) ? Encoding::linear : Encoding::srgb);
+  if (const auto stated = encoding_of_profile(info.profile)) header.encoding = *stated;
+  header.encoding = options.encoding.value_or(header.encoding);
   return header;
 }
 
-Source open(const std::filesystem::path& file, ImageFormat format) {
+void check_texel_count(const std::string& name, const AnnouncedSize& size, int channels,
+                       const ReadOptions& options) {
+  if (size.width <= options.most_texels / std::max<std::int64_t>(1, size.height)) return;
+  constexpr std::int64_t million = 1000000;
+  const double texels = static_cast<double>(size.width) * static_cast<double>(size.height);
+  throw Error(ErrorKind::invalid_content, name,
+              fmt::format("has {} x {} texels, which would take {:.3g} GB of memory; at most {} million are "
+                          "read: crop or shrink it, or raise the limit ({})",
+                          size.width, size.height, texels * 4e-9 * channels, options.most_texels / million,
+                          field("max-texels", fmt::format("{:.0f}", texels))));
+}
+
+Source open(const std::filesystem::path& file, ImageFormat format, const ReadOptions& options) {
   Source source;
   source.name = file.string();
-  source.reader = format == ImageFormat::png
-                      ? open_png(file)
-                      : static_cast<const ImageFunctions*>(openimageio_symbol("tilepack_image_functions"))
-                            ->open(file, format);
-  source.header = checked_header(source.name, source.reader.info);
+  if (const auto size = size_before_decoding(file, format)) check_texel_count(source.name, *size, 3, options);
+  source.reader = format == ImageFormat::png ? open_png(file) : openimageio<ImageIo>().open(file, format);
+  source.choice = chosen_channels(source.name, source.reader.info, options);
+  source.header = checked_header(source.name, source.reader.info, source.choice, options);
   return source;
+}
+
+// White as 0, which no decoder of the wider samples turns round.
+void invert(std::span<std::byte> raw, SampleType type) {
+  const auto each = [&]<typename T>(T) {
+    for (std::size_t at = 0; at + sizeof(T) <= raw.size(); at += sizeof(T)) {
+      T value;
+      std::memcpy(&value, raw.data() + at, sizeof(T));
+      value = 1 - value;
+      std::memcpy(raw.data() + at, &value, sizeof(T));
+    }
+  };
+  if (type == SampleType::f32) return each(float{});
+  if (type == SampleType::f64) return each(double{});
+  if (type == SampleType::f16) return;
+  for (std::byte& b : raw) b = ~b;
+}
+
+// The chosen channels of `raw`, packed to its front.
+std::span<const std::byte> picked(std::span<std::byte> raw, const Source& source) {
+  const std::vector<int>& from = source.choice.from;
+  const auto channels = static_cast<std::size_t>(source.reader.info.channels);
+  bool all = from.size() == channels;
+  for (std::size_t c = 0; c < from.size(); ++c) all = all && from[c] == static_cast<int>(c);
+  if (all) return raw;
+  const std::size_t bytes = size_of(source.reader.info.samples), texels = raw.size() / bytes / channels;
+  std::array<std::byte, 4 * sizeof(double)> texel{};
+  for (std::size_t t = 0; t < texels; ++t) {
+    for (std::size_t c = 0; c < from.size(); ++c)
+      std::memcpy(texel.data() + c * bytes,
+                  raw.data() + (t * channels + static_cast<std::size_t>(from[c])) * bytes, bytes);
+    std::memcpy(raw.data() + t * from.size() * bytes, texel.data(), from.size() * bytes);
+  }
+  return raw.first(texels * from.size() * bytes);
+}
+
+// Color that was multiplied by alpha, as it was before: R / A for the nearest value of the depth.
+void divide_by_alpha(Image& image, Depth depth) {
+  const auto channels = static_cast<std::size_t>(image.channels());
+  for (std::size_t at = 0; at + channels <= image.data().size(); at += channels) {
+    const float alpha = image.data()[at + channels - 1];
+    if (!(alpha > 0.0f)) continue;
+    for (std::size_t c = 0; c + 1 < channels; ++c) {
+      const float straight = quantised(image.data()[at + c] / alpha, depth);
+      if (std::isfinite(straight)) image.data()[at + c] = straight;
+    }
+  }
 }
 
 // Dividing, not multiplying by a rounded reciprocal: 255 codes of 8 bits would differ in their last bit.
@@ -132,11 +221,12 @@ void check_finite(const Source& source, const Texels& values, std::size_t from) 
   if (bad == values.end()) return;
   const std::size_t index = static_cast<std::size_t>(bad - values.begin());
   const std::size_t channels = static_cast<std::size_t>(source.header.channels);
-  const std::size_t width = static_cast<std::size_t>(source.header.size.width);
+  const auto width = static_cast<std::size_t>(source.reader.info.width);
+  const auto channel = static_cast<std::size_t>(source.choice.from[index % channels]);
   throw Error(ErrorKind::invalid_content, source.name,
               fmt::format("channel {} of texel ({}, {}) is {}; only finite values are allowed: repair or "
                           "repaint it",
-                          source.reader.info.channel_names[index % channels], index / channels % width,
+                          source.reader.info.channel_names[channel], index / channels % width,
                           index / channels / width, *bad));
 }
 
@@ -144,7 +234,7 @@ int rows_per_band(const Source& source, std::size_t row_bytes) {
   const RasterInfo& info = source.reader.info;
   const bool tiled = info.tile_width > 0;
   // Compressed files are decoded in strips; a band of whole strips decodes none twice.
-  const int height = source.header.size.height;
+  const int height = static_cast<int>(info.height);
   const int strip = std::clamp(tiled ? info.tile_height : info.strip_rows, 1, height);
   const std::size_t strip_bytes = row_bytes * static_cast<std::size_t>(strip);
   if (tiled) {
@@ -166,23 +256,25 @@ int rows_per_band(const Source& source, std::size_t row_bytes) {
 Image decode(const Source& source) {
   const RasterInfo& info = source.reader.info;
   const ImageHeader& header = source.header;
-  const std::size_t row_values =
-      static_cast<std::size_t>(header.size.width) * static_cast<std::size_t>(header.channels);
-  const std::size_t row_bytes = row_values * size_of(info.samples);
+  const Size size{static_cast<int>(info.width), static_cast<int>(info.height)}; // not yet upright
+  const std::size_t row_bytes =
+      static_cast<std::size_t>(size.width) * static_cast<std::size_t>(info.channels) * size_of(info.samples);
   const int band_rows = rows_per_band(source, row_bytes);
 
   Texels values;
-  values.reserve(row_values * static_cast<std::size_t>(header.size.height)); // address space, not yet memory
+  values.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height) *
+                 static_cast<std::size_t>(header.channels)); // address space, not yet memory
   std::vector<std::byte> band(row_bytes * static_cast<std::size_t>(band_rows));
-  for (int y = 0; y < header.size.height; y += band_rows) {
-    const int rows = std::min(band_rows, header.size.height - y);
+  for (int y = 0; y < size.height; y += band_rows) {
+    const int rows = std::min(band_rows, size.height - y);
     const auto texels = std::span(band).first(row_bytes * static_cast<std::size_t>(rows));
     source.reader.read(y, rows, texels);
+    if (info.white_is_zero) invert(texels, info.samples);
     const std::size_t before = values.size();
-    append_as_floats(texels, info.samples, values);
+    append_as_floats(picked(texels, source), info.samples, values);
     if (is_float(header.depth)) check_finite(source, values, before);
   }
-  return Image(header.size, header.channels, std::move(values));
+  return Image(size, header.channels, std::move(values));
 }
 
 /// Runs `f` and turns what a decoder throws into the errors promised.
@@ -193,7 +285,7 @@ auto guarded(const std::filesystem::path& file, F&& f) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::cannot_read, file.string(), "does not fit in memory; crop or shrink it");
+    throw;
   } catch (const std::exception& e) {
     throw unreadable(file.string(), e.what());
   }
@@ -201,18 +293,39 @@ auto guarded(const std::filesystem::path& file, F&& f) {
 
 } // namespace
 
-ImageHeader read_image_header(const std::filesystem::path& file) {
-  return guarded(file, [&] { return open(file, image_format(file)).header; });
+ImageHeader read_image_header(const std::filesystem::path& file, const ReadOptions& options) {
+  return guarded(file, [&] { return open(file, image_format(file), options).header; });
 }
 
-ImageFile read_image(const std::filesystem::path& file, std::optional<Encoding> asked) {
+ImageFile read_image(const std::filesystem::path& file, const ReadOptions& options) {
   return guarded(file, [&] {
     const ImageFormat format = image_format(file);
     check_complete(file, format);
-    const Source source = open(file, format);
-    Image image = decode(source);
-    return ImageFile{std::move(image), asked.value_or(source.header.encoding), source.header.depth};
+    const Source source = open(file, format, options);
+    const ImageHeader& header = source.header;
+    check_texel_count(source.name, {header.size.width, header.size.height}, header.channels, options);
+    const RasterInfo& info = source.reader.info;
+    ImageFile result{upright(decode(source), info.orientation), source.header.encoding, source.header.depth,
+                     info.notes};
+    if (info.associated_alpha && source.choice.alpha >= 0 && options.alpha == AlphaReading::straight)
+      divide_by_alpha(result.image, result.depth);
+    if (info.alpha_is_unsaid && source.choice.alpha >= 0)
+      result.notes.push_back(fmt::format(
+          "doesn't say whether its last channel is alpha; it is taken for alpha that color was not "
+          "multiplied by, and {} leaves it out",
+          field("channels", info.channels == 4 ? "R,G,B" : info.channel_names.front())));
+    if (info.doubtful_linear && !options.encoding)
+      result.notes.push_back(
+          fmt::format("is taken as linear because of {}; if it looks too bright, its values are sRGB: {}",
+                      info.doubtful_linear, field("encoding", "srgb")));
+    return result;
   });
+}
+
+ImageFile read_image(const std::filesystem::path& file, std::optional<Encoding> asked) {
+  ReadOptions options;
+  options.encoding = asked;
+  return read_image(file, options);
 }
 
 } // namespace tilepack

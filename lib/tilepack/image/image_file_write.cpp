@@ -21,6 +21,13 @@ std::size_t value_bytes_of(Depth depth) {
   return depth == Depth::u8 ? 1 : depth == Depth::f32 ? 4 : 2;
 }
 
+Image multiplied_by_alpha(Image image) {
+  const auto channels = static_cast<std::size_t>(image.channels());
+  for (std::size_t at = 0; at + channels <= image.data().size(); at += channels)
+    for (std::size_t c = 0; c + 1 < channels; ++c) image.data()[at + c] *= image.data()[at + channels - 1];
+  return image;
+}
+
 /// The codes of `values`, in the machine's byte order.
 std::vector<std::byte> stored(const Texels& values, Depth depth) {
   const std::size_t value_bytes = value_bytes_of(depth);
@@ -41,8 +48,9 @@ std::vector<std::byte> stored(const Texels& values, Depth depth) {
 } // namespace
 
 struct ImageWriter::State {
-  State(const std::filesystem::path& path, Size image_size, int channel_count, Depth stored_depth)
-      : name(path.string()), size(image_size), channels(channel_count), depth(stored_depth), file(path) {}
+  State(const std::filesystem::path& path, Size image_size, int channel_count, const StoredFormat& format)
+      : name(path.string()), size(image_size), channels(channel_count), depth(format.depth),
+        multiply(format.associated_alpha && channel_count % 2 == 0), file(path) {}
 
   /// Runs a step of the encoder; of what goes wrong, the system's reason comes first, if it has one.
   template <typename F>
@@ -62,6 +70,7 @@ struct ImageWriter::State {
   Size size;
   int channels;
   Depth depth;
+  bool multiply; // color by alpha
   StagedFile file;
   RasterWriter writer; // declared last: on destruction it may still write to the file
   int rows_written = 0;
@@ -85,7 +94,7 @@ ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int chann
         fmt::format("{} x {} texels of {} channels cannot be written; each side may be 1 to {}, with 1 "
                     "to 4 channels",
                     size.width, size.height, channels, max_image_side));
-  state = std::make_unique<State>(file, size, channels, depth);
+  state = std::make_unique<State>(file, size, channels, format);
   // A failed write is remembered by the staged file, which is asked after each step.
   const ByteSink sink = [&staged = state->file](std::uint64_t offset, std::span<const std::byte> bytes) {
     staged.write(offset, bytes);
@@ -93,8 +102,7 @@ ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int chann
   state->encode([&] {
     state->writer = format.container == ImageContainer::png
                         ? create_png(sink, size, channels, depth, format.encoding)
-                        : static_cast<const ImageFunctions*>(openimageio_symbol("tilepack_image_functions"))
-                              ->create_exr(sink, size, channels, depth);
+                        : openimageio<ImageIo>().create_exr(sink, size, channels, depth);
   });
 }
 
@@ -108,7 +116,8 @@ void ImageWriter::write(const Image& band) {
       band.height() > s.size.height - s.rows_written)
     throw std::logic_error("a band does not fit the image that was announced");
   if (band.empty()) return;
-  const std::vector<std::byte> bytes = stored(band.data(), s.depth);
+  const std::vector<std::byte> bytes =
+      stored(s.multiply ? multiplied_by_alpha(band).data() : band.data(), s.depth);
   s.encode([&] { s.writer.write(s.rows_written, band.height(), bytes); });
   s.rows_written += band.height();
 }

@@ -1,264 +1,77 @@
 #include "tilepack/image/image_format.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/image/file_bytes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
-#include <fcntl.h>
 #include <span>
-#include <sys/stat.h>
-#include <unistd.h>
-#include <vector>
-#include <zlib.h>
+#include <string_view>
 
 namespace tilepack {
 namespace {
 
-/// A file opened for reading at any offset.
-class FileBytes {
-public:
-  explicit FileBytes(const std::filesystem::path& file) : name(file.string()) {
-    // Not blocking: opening a pipe must not wait for a writer.
-    descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0)
-      throw Error(ErrorKind::cannot_read, name, fmt::format("cannot be opened: {}", std::strerror(errno)));
-    struct stat status {};
-    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
-      ::close(descriptor);
-      throw Error(ErrorKind::cannot_read, name,
-                  S_ISDIR(status.st_mode) ? "is a folder; name an image file in it"
-                                          : "is not a regular file; copy the image to one");
-    }
-    length = static_cast<std::uint64_t>(status.st_size);
-  }
-  ~FileBytes() { ::close(descriptor); }
-  FileBytes(const FileBytes&) = delete;
-  FileBytes& operator=(const FileBytes&) = delete;
+using Bytes = std::span<const unsigned char>;
 
-  std::uint64_t size() const { return length; }
-
-  bool holds(std::uint64_t offset, std::uint64_t count) const {
-    return offset <= length && count <= length - offset;
-  }
-
-  /// Fills `bytes` from `offset`; an end of file before that is a truncation.
-  void read(std::uint64_t offset, std::span<unsigned char> bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t n = ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0)
-        throw Error(ErrorKind::cannot_read, name, fmt::format("cannot be read: {}", std::strerror(errno)));
-      if (n == 0) truncated();
-      offset += static_cast<std::uint64_t>(n);
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-    }
-  }
-
-  [[noreturn]] void truncated() const {
-    throw Error(
-        ErrorKind::cannot_read, name,
-        fmt::format("is truncated: its content goes on after the {} bytes that are there; copy or export "
-                    "it again",
-                    length));
-  }
-  [[noreturn]] void damaged(const std::string& what) const {
-    throw Error(ErrorKind::cannot_read, name, fmt::format("is damaged: {}; copy or export it again", what));
-  }
-
-private:
-  std::string name;
-  int descriptor = -1;
-  std::uint64_t length = 0;
-};
-
-std::uint64_t big_endian(std::span<const unsigned char> bytes) {
-  std::uint64_t value = 0;
-  for (const unsigned char b : bytes) value = value << 8 | b;
-  return value;
+bool stands(std::string_view magic, Bytes bytes, std::size_t at = 0) {
+  return at + magic.size() <= bytes.size() &&
+         std::equal(magic.begin(), magic.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                    [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-// ---- PNG -------------------------------------------------------------------------------------------------
-
-constexpr std::array<unsigned char, 8> png_signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-
-// Some decoders take memory for all an image's header promises before they look at the rest, so a promise
-// beyond what the format can deliver is refused first. Deflate makes at most 1032 bytes of one.
-void check_png_promise(const FileBytes& file) {
-  std::array<unsigned char, 10> header{}; // width, height, bits per sample, color type
-  file.read(png_signature.size() + 8, header);
-  constexpr std::array<std::uint64_t, 7> samples = {1, 0, 3, 1, 2, 0, 4};
-  const std::uint64_t width = big_endian(std::span(header).first(4));
-  const std::uint64_t height = big_endian(std::span(header).subspan(4, 4));
-  const std::uint64_t row = (width * header[8] * samples[std::min<std::size_t>(header[9], 6)] + 7) / 8 + 1;
-  if (height > file.size() * 1032 / row + 1) file.truncated();
-}
-
-void check_png(const FileBytes& file) {
-  std::uint64_t offset = png_signature.size();
-  std::vector<unsigned char> block(1 << 16);
-  for (bool first = true;; first = false) {
-    std::array<unsigned char, 8> head{};
-    file.read(offset, head);
-    const std::uint64_t length = big_endian(std::span(head).first(4));
-    const std::string type(head.begin() + 4, head.end());
-    if (first && type != "IHDR") file.damaged("it does not begin with a header chunk");
-    if (!file.holds(offset + 8, length + 4)) file.truncated();
-    if (first) check_png_promise(file);
-
-    uLong crc = ::crc32_z(0, head.data() + 4, 4);
-    for (std::uint64_t done = 0; done < length;) {
-      const auto part = std::span(block).first(
-          static_cast<std::size_t>(std::min<std::uint64_t>(length - done, block.size())));
-      file.read(offset + 8 + done, part);
-      crc = ::crc32_z(crc, part.data(), part.size());
-      done += part.size();
-    }
-    std::array<unsigned char, 4> stored{};
-    file.read(offset + 8 + length, stored);
-    if (big_endian(stored) != crc)
-      file.damaged(fmt::format("the chunk at byte {} fails its checksum", offset));
-    if (type == "IEND") return;
-    offset += length + 12;
-  }
-}
-
-// ---- JPEG ------------------------------------------------------------------------------------------------
-
-/// Walks a file byte by byte through a buffer.
-class ByteStream {
-public:
-  ByteStream(const FileBytes& source, std::uint64_t from) : file(source), next_block(from) {}
-
-  unsigned char next() {
-    if (position == block.size()) refill();
-    return block[position++];
-  }
-  void skip(std::uint64_t count) {
-    const std::uint64_t buffered = block.size() - position;
-    if (count <= buffered) {
-      position += static_cast<std::size_t>(count);
-    } else {
-      next_block += count - buffered;
-      position = block.size();
-    }
-  }
-
-private:
-  void refill() {
-    if (!file.holds(next_block, 1)) file.truncated();
-    block.resize(static_cast<std::size_t>(std::min<std::uint64_t>(1 << 16, file.size() - next_block)));
-    file.read(next_block, block);
-    next_block += block.size();
-    position = 0;
-  }
-
-  const FileBytes& file;
-  std::uint64_t next_block;
-  std::vector<unsigned char> block;
-  std::size_t position = 0;
-};
-
-bool is_frame_header(unsigned char marker) {
-  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-}
-
-void check_jpeg(const FileBytes& file) {
-  ByteStream bytes(file, 2); // past the start marker
-  bool in_scan = false;
-  for (;;) {
-    unsigned char byte = bytes.next();
-    if (byte != 0xFF) {
-      if (!in_scan) file.damaged("a segment does not begin with a marker");
-      continue;
-    }
-    while (byte == 0xFF) byte = bytes.next();
-    // Within a scan, FF 00 stands for the byte FF, and D0 to D7 are restart markers.
-    if (in_scan && (byte == 0x00 || (byte >= 0xD0 && byte <= 0xD7))) continue;
-    if (byte == 0xD9) return; // end of image
-    in_scan = byte == 0xDA;
-    const std::uint64_t high = bytes.next();
-    const std::uint64_t length = high << 8 | bytes.next();
-    if (length < 2) file.damaged("a segment is shorter than its length field");
-    std::uint64_t left = length - 2;
-    if (is_frame_header(byte) && left >= 5) {
-      std::array<unsigned char, 5> frame{}; // bits, height, width
-      for (unsigned char& b : frame) b = bytes.next();
-      left -= frame.size();
-      const std::uint64_t texels =
-          big_endian(std::span(frame).subspan(1, 2)) * big_endian(std::span(frame).subspan(3));
-      // The mean of a block of 8 x 8 texels takes a bit at least; see check_png_promise.
-      if (texels / 512 > file.size()) file.truncated();
-    }
-    bytes.skip(left);
-  }
-}
-
-// ---- TIFF ------------------------------------------------------------------------------------------------
-
-class TiffWalk {
-public:
-  explicit TiffWalk(const FileBytes& source) : file(source) {
-    std::array<unsigned char, 4> head{};
-    file.read(0, head);
-    little = head[0] == 'I';
-    big = (little ? head[2] : head[3]) == 43;
-  }
-
-  /// Only the first directory counts: the others describe images that are not read.
-  void check() const { check_directory(big ? number(8, 8) : number(4, 4)); }
-
-private:
-  struct Entry {
-    std::uint64_t type = 0, count = 0, at = 0; // `at`: offset of the first value in the file
+std::optional<ImageFormat> format_by_magic(Bytes head) {
+  using namespace std::string_view_literals;
+  struct Magic {
+    std::string_view bytes;
+    ImageFormat format;
   };
+  static constexpr Magic magics[] = {
+      {"\x89PNG\r\n\x1a\n"sv, ImageFormat::png},
+      {"\xFF\xD8\xFF"sv, ImageFormat::jpeg},
+      {"\x76\x2F\x31\x01"sv, ImageFormat::exr},
+      {"II\x2A\0"sv, ImageFormat::tiff},
+      {"MM\0\x2A"sv, ImageFormat::tiff},
+      {"II\x2B\0"sv, ImageFormat::tiff},
+      {"MM\0\x2B"sv, ImageFormat::tiff},
+      {"#?RADIANCE"sv, ImageFormat::hdr},
+      {"#?RGBE"sv, ImageFormat::hdr},
+      {"\0\0\0\x0CjP  \r\n\x87\n"sv, ImageFormat::jpeg2000},
+      {"\xFF\x4F\xFF\x51"sv, ImageFormat::jpeg2000},
+      {"DDS "sv, ImageFormat::dds},
+      {"8BPS\0\x01"sv, ImageFormat::psd},
+      {"8BPS\0\x02"sv, ImageFormat::psd},
+  };
+  for (const Magic& magic : magics)
+    if (stands(magic.bytes, head)) return magic.format;
+  if (stands("RIFF", head) && stands("WEBP", head, 8)) return ImageFormat::webp;
+  // "BM" alone is how many a text begins.
+  if (stands("BM", head) && head.size() >= 18 && little_endian(head.subspan(6, 4)) == 0 &&
+      little_endian(head.subspan(14, 4)) <= 124)
+    return ImageFormat::bmp;
+  return {};
+}
 
-  std::uint64_t number(std::uint64_t offset, std::size_t bytes) const {
-    std::array<unsigned char, 8> raw{};
-    const auto part = std::span(raw).first(bytes);
-    file.read(offset, part);
-    if (little) std::reverse(part.begin(), part.end());
-    return big_endian(part);
-  }
-
-  static std::size_t size_of(std::uint64_t type) {
-    constexpr std::array<unsigned char, 19> sizes = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
-    return type < sizes.size() ? sizes[static_cast<std::size_t>(type)] : 0;
-  }
-
-  void check_directory(std::uint64_t directory) const {
-    const std::size_t word = big ? 8 : 4, count_size = big ? 8 : 2, entry_size = big ? 20 : 12;
-    const std::uint64_t entries = number(directory, count_size);
-    if (entries > file.size() / entry_size) file.truncated();
-    Entry offsets, counts;
-    for (std::uint64_t i = 0; i < entries; ++i) {
-      const std::uint64_t at = directory + count_size + i * entry_size;
-      const std::uint64_t tag = number(at, 2);
-      Entry entry{number(at + 2, 2), number(at + 4, word), at + 4 + word};
-      const std::size_t size = size_of(entry.type);
-      if (size == 0) continue; // an unknown type is to be skipped, says the format
-      if (entry.count > file.size()) file.truncated();
-      if (entry.count * size > word) entry.at = number(entry.at, word);
-      if (!file.holds(entry.at, entry.count * size)) file.truncated();
-      if (tag == 273 || tag == 324) offsets = entry; // strips, tiles
-      if (tag == 279 || tag == 325) counts = entry;
-    }
-    for (std::uint64_t i = 0; i < std::min(offsets.count, counts.count); ++i)
-      if (!file.holds(value(offsets, i), value(counts, i))) file.truncated();
-  }
-
-  std::uint64_t value(const Entry& entry, std::uint64_t i) const {
-    const std::size_t size = size_of(entry.type);
-    return number(entry.at + i * size, size);
-  }
-
-  const FileBytes& file;
-  bool little = true, big = false;
-};
+// A TGA begins with no mark; files of version 2 end with one. The older ones are known by their name and by a
+// header that makes sense.
+bool is_tga(const FileBytes& file, const std::filesystem::path& path, Bytes head) {
+  constexpr std::string_view footer("TRUEVISION-XFILE.\0", 18);
+  if (head.size() < 18) return false;
+  const int palette = head[1], kind = head[2], bits = head[16];
+  const bool known_kind = (kind >= 1 && kind <= 3) || (kind >= 9 && kind <= 11);
+  const bool sound = palette <= 1 && known_kind &&
+                     (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32) &&
+                     little_endian(head.subspan(12, 2)) > 0 && little_endian(head.subspan(14, 2)) > 0;
+  if (!sound) return false;
+  std::array<unsigned char, 18> tail{};
+  if (file.size() >= 18 + 26) file.read(file.size() - tail.size(), tail);
+  if (stands(footer, tail)) return true;
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return ending == ".tga" || ending == ".targa" || ending == ".vda" || ending == ".icb" || ending == ".vst";
+}
 
 } // namespace
 
@@ -266,34 +79,35 @@ ImageFormat image_format(const std::filesystem::path& path) {
   const FileBytes file(path);
   if (file.size() == 0)
     throw Error(ErrorKind::cannot_read, path.string(), "is empty (0 bytes); copy or export it again");
-  std::array<unsigned char, 8> head{};
-  file.read(0, std::span(head).first(static_cast<std::size_t>(std::min<std::uint64_t>(8, file.size()))));
-  const auto begins = [&](std::string_view magic) {
-    return std::equal(magic.begin(), magic.end(), head.begin(),
-                      [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
-  };
-  if (head == png_signature) return ImageFormat::png;
-  if (begins("\xFF\xD8\xFF")) return ImageFormat::jpeg;
-  if (begins("\x76\x2F\x31\x01")) return ImageFormat::exr;
-  for (const std::string_view magic : {std::string_view("II\x2A\0", 4), std::string_view("MM\0\x2A", 4),
-                                       std::string_view("II\x2B\0", 4), std::string_view("MM\0\x2B", 4)})
-    if (begins(magic)) return ImageFormat::tiff;
-  throw Error(ErrorKind::cannot_read, path.string(),
-              "is no PNG, JPEG, TIFF or EXR image, by its first bytes; convert it to one of these");
+  std::array<unsigned char, 32> start{};
+  const auto head =
+      std::span(start).first(static_cast<std::size_t>(std::min<std::uint64_t>(32, file.size())));
+  file.read(0, head);
+  if (const auto format = format_by_magic(head)) return *format;
+  if (is_tga(file, path, head)) return ImageFormat::tga;
+  throw Error(
+      ErrorKind::cannot_read, path.string(),
+      fmt::format("is no {} image, by its first bytes; convert it to one of these", readable_formats()));
 }
 
-void check_complete(const std::filesystem::path& path, ImageFormat format) {
+std::optional<AnnouncedSize> size_before_decoding(const std::filesystem::path& path, ImageFormat format) {
+  if (format != ImageFormat::jpeg2000) return {};
   const FileBytes file(path);
-  switch (format) {
-  case ImageFormat::png:
-    return check_png(file);
-  case ImageFormat::jpeg:
-    return check_jpeg(file);
-  case ImageFormat::tiff:
-    return TiffWalk(file).check();
-  case ImageFormat::exr:
-    break;
-  }
+  std::array<unsigned char, 512> start{};
+  const auto head =
+      std::span(start).first(static_cast<std::size_t>(std::min<std::uint64_t>(start.size(), file.size())));
+  file.read(0, head);
+  const auto number = [&](std::size_t at) {
+    return static_cast<std::int64_t>(big_endian(std::span(start).subspan(at, 4)));
+  };
+  if (stands("\xFF\x4F\xFF\x51", head)) return AnnouncedSize{number(8), number(12)};
+  for (std::size_t at = 0; at + 12 <= head.size(); ++at)
+    if (stands("ihdr", head, at)) return AnnouncedSize{number(at + 8), number(at + 4)};
+  return {};
+}
+
+std::string_view readable_formats() {
+  return "PNG, JPEG, TIFF, EXR, TGA, BMP, WebP, HDR, JPEG 2000, DDS or PSD";
 }
 
 } // namespace tilepack

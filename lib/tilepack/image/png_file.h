@@ -7,8 +7,8 @@
 namespace tilepack {
 
 /// Opens a PNG file with libpng. Palettes, single bits and transparent colors come expanded to 8-bit
-/// channels, 16 bits as they are; no gamma, no change of alpha. An sRGB chunk (or a profile that libpng knows
-/// as sRGB) or no word at all means sRGB, a gAMA chunk of 1 linear, any other gamma sRGB, which is near.
+/// channels, 16 bits as they are; no gamma, no change of alpha. The encoding is that of a cICP chunk, else of
+/// a profile, else sRGB, but for a gAMA chunk of 1 that stands alone: linear. Any other gamma is near sRGB.
 /// Interlaced images are decoded as a whole on the first read.
 RasterReader open_png(const std::filesystem::path& file);
 

@@ -1,3 +1,4 @@
+#include "tilepack/image/orientation.h"
 #include "tilepack/image/png_file.h"
 
 #include <array>
@@ -30,9 +31,12 @@ public:
       call([this] {
         // Sizes are judged by who asked, with a message; texts and times are nobody's business here.
         png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-        static constexpr char unread[] = "tEXt\0zTXt\0iTXt\0tIME\0eXIf\0hIST\0sPLT";
+        static constexpr char unread[] = "tEXt\0zTXt\0iTXt\0tIME\0hIST\0sPLT";
         png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, reinterpret_cast<png_const_bytep>(unread),
                                     static_cast<int>(sizeof unread / 5));
+        // Younger than libpng 1.6.
+        static constexpr char kept[] = "cICP";
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, reinterpret_cast<png_const_bytep>(kept), 1);
         png_init_io(png, file);
         png_read_info(png, info);
       });
@@ -58,12 +62,12 @@ public:
     result.channels = (color ? 3 : 1) + (alpha ? 1 : 0);
     result.channel_names = color ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
     if (alpha) result.channel_names.emplace_back("A");
-    int intent = 0;
-    double gamma = 0;
-    // To a hundredth: writers round differently.
-    const bool flat = png_get_sRGB(png, info, &intent) == 0 && png_get_gAMA(png, info, &gamma) != 0 &&
-                      gamma > 0 && std::floor(100.0 / gamma + 0.5) == 100.0;
-    result.encoding = flat ? Encoding::linear : Encoding::srgb;
+    if (alpha) result.alpha_channel = result.channels - 1;
+    describe_encoding(result);
+    png_bytep exif = nullptr;
+    png_uint_32 exif_bytes = 0;
+    if (png_get_eXIf_1(png, info, &exif_bytes, &exif) != 0)
+      result.orientation = orientation_of_exif(std::as_bytes(std::span(exif, exif_bytes)));
     return result;
   }
 
@@ -84,6 +88,40 @@ public:
   }
 
 private:
+  // cICP goes before iCCP, sRGB and gAMA, in this order [PNG3, 11.3.2].
+  void describe_encoding(RasterInfo& result) const {
+    result.encoding = Encoding::srgb;
+    png_unknown_chunkp chunks = nullptr;
+    const int count = png_get_unknown_chunks(png, info, &chunks);
+    for (int i = 0; i < count; ++i) {
+      if (std::memcmp(chunks[i].name, "cICP", 4) != 0 || chunks[i].size != 4) continue;
+      const int curve = chunks[i].data[1]; // of ITU-T H.273
+      if (curve == 8) result.encoding = Encoding::linear;
+      if (curve == 16 || curve == 18)
+        result.notes.emplace_back("has the transfer curve of high dynamic range (cICP) and is taken as sRGB; "
+                                  "convert it to a linear EXR");
+      return;
+    }
+    png_charp name = nullptr;
+    int compression = 0;
+    png_bytep profile = nullptr;
+    png_uint_32 bytes = 0;
+    if (png_get_iCCP(png, info, &name, &compression, &profile, &bytes) != 0) {
+      const auto data = std::as_bytes(std::span(profile, bytes));
+      result.profile.assign(data.begin(), data.end());
+      return;
+    }
+    int intent = 0;
+    double gamma = 0;
+    if (png_get_sRGB(png, info, &intent) != 0 || png_get_gAMA(png, info, &gamma) == 0) return;
+    // To a hundredth: writers round differently.
+    if (!(gamma > 0 && std::floor(100.0 / gamma + 0.5) == 100.0)) return;
+    result.encoding = Encoding::linear;
+    // Color of 8 bits is hardly ever linear; many programs have written this chunk without meaning it.
+    if (result.channels >= 3 && result.samples == SampleType::u8)
+      result.doubtful_linear = "its gAMA chunk of 1.0 alone";
+  }
+
   void start() {
     call([this] {
       png_set_expand(png); // palettes and fewer than 8 bits to bytes, a transparent color to alpha

@@ -23,9 +23,19 @@ struct RasterInfo {
   SampleType samples = SampleType::u8;
   std::string sample_name;          ///< for messages: "uint8"
   std::optional<Encoding> encoding; ///< if the file says
+  std::vector<std::byte> profile;   ///< the ICC profile, empty if there is none; it goes before `encoding`
   std::vector<std::string> channel_names;
-  int tile_width = 0, tile_height = 0; ///< 0 if stored in rows
-  int strip_rows = 32;                 ///< rows that are decoded together
+  bool names_are_free = false;           ///< channels are what their names say, in any order and number (EXR)
+  int alpha_channel = -1;                ///< -1: none
+  bool associated_alpha = false;         ///< color is multiplied by alpha already
+  bool alpha_is_unsaid = false;          ///< the file has a channel more and doesn't say what it is
+  std::vector<int> whole_numbers;        ///< channels of EXR that hold integers: numbers of things, as a rule
+  bool white_is_zero = false;            ///< and the decoder did not invert it
+  const char* doubtful_linear = nullptr; ///< the only word that says "linear" where that is unusual
+  int orientation = 1;                   ///< see orientation.h
+  std::vector<std::string> notes;        ///< sentences about what was passed over
+  int tile_width = 0, tile_height = 0;   ///< 0 if stored in rows
+  int strip_rows = 32;                   ///< rows that are decoded together
 };
 
 /// A file being decoded. `read` fills `texels` with whole rows from `top` on, in order; rows of tiles are not

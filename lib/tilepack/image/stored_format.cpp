@@ -13,7 +13,8 @@ ImageContainer usual_container(Depth depth) {
 }
 
 StoredFormat usual_format(Depth depth, Encoding encoding) {
-  return {usual_container(depth), depth, encoding};
+  const ImageContainer container = usual_container(depth);
+  return {container, depth, encoding, container == ImageContainer::exr};
 }
 
 std::string_view name_of(ImageContainer container) {

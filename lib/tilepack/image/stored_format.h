@@ -19,6 +19,8 @@ struct StoredFormat {
   ImageContainer container = ImageContainer::png;
   Depth depth = Depth::u8;
   Encoding encoding = Encoding::srgb;
+  bool associated_alpha =
+      false; ///< color of 2 or 4 channels is multiplied by alpha, as EXR has it by definition
   bool operator==(const StoredFormat&) const = default;
 };
 
@@ -33,7 +35,7 @@ bool holds(ImageContainer container, Depth depth);
 /// The kind of file for a depth where nobody asked for one: PNG for integers, EXR for floats.
 ImageContainer usual_container(Depth depth);
 
-/// An image of `depth` and `encoding` in the usual container of the depth.
+/// An image of `depth` and `encoding` in the usual container of the depth, alpha as others expect it there.
 StoredFormat usual_format(Depth depth, Encoding encoding);
 
 /// The ending of file names, without the dot, which is also the name in options: "png", "exr".

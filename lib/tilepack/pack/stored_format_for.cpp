@@ -22,6 +22,7 @@ StoredFormat stored_format_for(Role role, Encoding encoding, Depth depth, const 
     format.encoding = is_integer(format.depth) ? Encoding::srgb : Encoding::linear;
   if (reader == StoredFor::picture && format.container == ImageContainer::exr)
     format.encoding = Encoding::linear;
+  format.associated_alpha = reader == StoredFor::picture && format.container == ImageContainer::exr;
   return format;
 }
 

@@ -31,7 +31,8 @@ enum class StoredFor {
 ///   EXR, picture     u16       f32
 ///
 /// The encoding stays, but for color that changes between integers and floats: it becomes linear in floats,
-/// sRGB in integers. In an EXR picture everything is linear.
+/// sRGB in integers. In an EXR picture everything is linear, and alpha
+/// associated.
 StoredFormat stored_format_for(Role role, Encoding encoding, Depth depth, const StorageRequest& request,
                                StoredFor reader);
 

@@ -1,6 +1,5 @@
 #include "tilepack/pack/texture_file.h"
 
-#include "tilepack/image/image_file.h"
 #include "tilepack/pack/image_header_check.h"
 
 #include <fmt/format.h>
@@ -15,6 +14,13 @@ void require_one_level(std::size_t levels) {
 }
 
 } // namespace
+
+ReadOptions pack_reading(Encoding encoding) {
+  ReadOptions options;
+  options.encoding = encoding;
+  options.alpha = AlphaReading::as_stored;
+  return options;
+}
 
 int levels_in(std::span<const TextureFile> files) {
   std::size_t levels = 0;
@@ -44,7 +50,7 @@ void check_texture_file(const std::filesystem::path& path, const TextureFile& an
 
 void read_texture_file(const std::filesystem::path& path, Encoding encoding, std::span<Image> levels) {
   require_one_level(levels.size());
-  levels.front() = read_image(path, encoding).image;
+  levels.front() = read_image(path, pack_reading(encoding)).image;
 }
 
 void write_texture_file(const std::filesystem::path& path, std::span<const Image> levels,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/image.h"
+#include "tilepack/image/image_file.h"
 #include "tilepack/image/stored_format.h"
 
 #include <filesystem>
@@ -33,6 +34,9 @@ std::vector<TextureFile> texture_files(const std::string& stem, std::span<const 
 /// cannot_read if it is truncated or no image, invalid_content if size, channels or depth differ.
 void check_texture_file(const std::filesystem::path& path, const TextureFile& announced, int channels,
                         Depth depth);
+
+/// How files of a pack are read, of this encoding: alpha in them is never associated, also in EXR.
+ReadOptions pack_reading(Encoding encoding);
 
 /// Reads the levels of a file, values as stored in `encoding`, into as many images. Throws as read_image does.
 void read_texture_file(const std::filesystem::path& path, Encoding encoding, std::span<Image> levels);
