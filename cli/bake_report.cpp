@@ -48,16 +48,6 @@ std::string loss_text(const PackedMap& map) {
   return fmt::format("  {:<9} stored turned and read back: {}\n", map.name, text);
 }
 
-std::string escaped(const std::string& path) {
-  std::string text;
-  for (const char c : path) {
-    if (c == '$') text += '$';
-    if (c == ' ' || c == '\t' || c == '#' || c == ':') text += '\\';
-    text += c;
-  }
-  return text;
-}
-
 // Only what could be better: an artist wants to know whether to look closer.
 std::string verdict_text(const BakeFacts& facts) {
   const BakeVerdict verdict = bake_verdict(facts);
@@ -95,40 +85,6 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
   text += fmt::format("  {:<9} {}, {} x {} tiles\n", "mapping", name_of(pack.mapping.kind),
                       pack.mapping.size.width, pack.mapping.size.height);
   return facts ? text + verdict_text(*facts) : text;
-}
-
-Progress StageClock::around(Progress onward) {
-  return [this, onward = std::move(onward)](std::string_view stage, double done) {
-    begin(stage);
-    report(onward, stage, done);
-  };
-}
-
-void StageClock::begin(std::string_view stage) {
-  const auto now = std::chrono::steady_clock::now();
-  if (current < stages.size()) stages[current].share += std::chrono::duration<double>(now - since).count();
-  since = now;
-  current = 0;
-  while (current < stages.size() && stages[current].stage != stage) ++current;
-  if (current == stages.size()) stages.push_back({std::string(stage), 0.0});
-}
-
-std::vector<StageShare> StageClock::shares() {
-  begin(stages.empty() ? "reading" : stages[current].stage); // counts what has passed
-  double total = 0.0;
-  for (const StageShare& s : stages) total += s.share;
-  std::vector<StageShare> result;
-  for (const StageShare& s : stages)
-    if (s.share >= 0.01 * total && total > 0) result.push_back({s.stage, s.share / total});
-  return result;
-}
-
-std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs) {
-  std::string text = escaped(target) + ":";
-  for (const std::string& input : inputs) text += fmt::format(" \\\n  {}", escaped(input));
-  text += '\n';
-  for (const std::string& input : inputs) text += fmt::format("\n{}:\n", escaped(input));
-  return text;
 }
 
 } // namespace tilepack::cli

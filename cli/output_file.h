@@ -1,41 +1,4 @@
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-namespace tilepack::cli {
-
-/// A file that a command is asked to write, with the option that names it.
-struct OutputFile {
-  std::string option; ///< "--report"
-  std::string file;   ///< empty: not asked for
-};
-
-/// Throws Error (usage) if an output would replace one of `inputs`, which the command reads, or another
-/// output; also by another spelling of the same path or through links. To be called before anything is
-/// written.
-void check_outputs(std::span<const OutputFile> outputs, std::span<const std::string> inputs);
-
-/// The pack.json of `pack` (a folder or pack.json) and all files that it names. Throws Error if it can't be
-/// read.
-std::vector<std::string> files_of_pack(const std::string& pack);
-
-/// check_pack_folder, and Error (usage) if `folder` lies in another pack, or `inputs` are among the files of
-/// a pack in `folder`, which a new one replaces.
-void check_pack_folder_for(const std::string& folder, std::span<const std::string> inputs);
-
-/// What is wrong with the name of a file that does not end in one of `allowed`, for a message.
-std::string without_ending(const std::string& file, const std::string& allowed);
-
-/// Throws Error (usage) unless `output` is empty or ends in .html or .htm: a page is nothing else.
-void check_page_name(const OutputFile& output);
-
-/// Throws Error (cannot_write) if `file` can't be created in its folder. Leaves no trace.
-void check_writable(const std::string& file);
-
-/// Writes `text`, all or nothing. Throws Error (cannot_write).
-void write_text_file(const std::string& file, std::string_view text);
-
-} // namespace tilepack::cli
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/text_file.h"

@@ -1,41 +1,28 @@
 #include "bake_field_options.h"
 #include "bake_report.h"
-#include "bake_samples.h"
 #include "jobs.h"
-#include "output_file.h"
 #include "value_check.h"
 #include "verb.h"
 
-#include "tilepack/bake/bake.h"
-#include "tilepack/bake/bake_fields.h"
+#include "tilepack/bake/bake_job.h"
+#include "tilepack/bake/material_read.h"
 #include "tilepack/bake/preset.h"
-#include "tilepack/error/error.h"
-#include "tilepack/error/nearest_name.h"
-#include "tilepack/image/staged_file.h"
-#include "tilepack/pack/pack_read.h"
-#include "tilepack/pack/pack_write.h"
+#include "tilepack/bake/text_file.h"
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/pack_summary.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <tbb/task_group.h>
 
-#include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
-#include <span>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tilepack::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct BakeArguments {
   std::string sample;
@@ -75,88 +62,19 @@ std::string listed_presets_json() {
   return list.dump(2) + "\n";
 }
 
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw Error(ErrorKind::cannot_read, file, "the preset can't be read");
-  return text.str();
-}
-
-// A built-in preset by its name, else a file.
-Preset preset_called(const std::string& name) {
-  std::vector<std::string> known;
-  for (Preset& preset : built_in_presets()) {
-    if (preset.name == name) return std::move(preset);
-    known.push_back(preset.name);
-  }
-  const std::filesystem::path file(name);
-  if (std::filesystem::is_regular_file(file)) return parsed_preset(text_of(name), file.stem().string(), name);
-  if (file.has_parent_path() || file.has_extension())
-    throw Error(ErrorKind::cannot_read, name, "there is no such preset file");
-  const std::string nearest = nearest_name(name, known);
-  throw Error(ErrorKind::usage, "--preset",
-              fmt::format("there is no preset '{}'; {}--list-presets shows them, and a FILE is taken too",
-                          name, nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest)));
-}
-
-BakeOptions options_from(const BakeArguments& arguments) {
-  std::vector<BakeSetting> settings;
-  if (!arguments.preset.empty()) settings = preset_called(arguments.preset).settings;
-  for (const auto& [field, value] : arguments.fields)
-    settings.push_back({field, value, "--" + field, ErrorKind::usage});
-  return bake_options(settings);
-}
-
-std::string dependencies(const BakeArguments& arguments, const std::vector<MaterialFile>& files) {
-  std::vector<std::string> inputs;
-  for (const MaterialFile& file : files) inputs.push_back(file.file);
-  if (std::filesystem::is_regular_file(arguments.preset)) inputs.push_back(arguments.preset);
-  return depfile_text((std::filesystem::path(arguments.folder) / "pack.json").string(), inputs);
-}
-
-class Stopwatch {
-public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last, now)).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point last = std::chrono::steady_clock::now();
-};
-
-// Refuses early what can't be written, or would replace what the pack is made from. A report inside the
-// pack's folder has to wait for the folder.
-void check_outputs_of(const BakeArguments& arguments, const std::vector<MaterialFile>& files) {
-  const OutputFile depfile{"--depfile", arguments.depfile}, page{"--report", arguments.report};
-  check_page_name(page);
-  std::vector<std::string> inputs;
-  for (const MaterialFile& file : files) inputs.push_back(file.file);
-  if (fs::is_regular_file(arguments.preset)) inputs.push_back(arguments.preset);
-  check_outputs(std::vector{depfile, page}, inputs);
-  check_pack_folder_for(arguments.folder, inputs);
-  if (!depfile.file.empty()) check_writable(depfile.file);
-  if (page.file.empty()) return;
-  const fs::path folder = fs::absolute(page.file).parent_path().lexically_normal();
-  if (folder != (fs::absolute(arguments.folder) / "").lexically_normal().parent_path())
-    check_writable(page.file);
-}
-
-// A depfile that gets its name only once the pack is in place.
-std::unique_ptr<StagedFile> staged_depfile(const BakeArguments& arguments,
-                                           const std::vector<MaterialFile>& files,
-                                           const PackDescription& made) {
-  if (arguments.depfile.empty()) return nullptr;
-  std::vector<std::string> pack_files{(fs::path(arguments.folder) / "pack.json").string()};
-  for (const std::string& file : made.all_files())
-    pack_files.push_back((fs::path(arguments.folder) / file).string());
-  check_outputs(std::vector<OutputFile>{{"--depfile", arguments.depfile}}, pack_files);
-  const std::string text = dependencies(arguments, files);
-  auto staged = std::make_unique<StagedFile>(arguments.depfile);
-  staged->write(0, std::as_bytes(std::span(text.data(), text.size())));
-  staged->check();
-  return staged;
+BakeJob job_from(const BakeArguments& arguments) {
+  BakeJob job;
+  job.sample = arguments.sample;
+  for (const std::string& map : arguments.maps) job.maps.push_back(parsed_map(map));
+  job.preset = arguments.preset;
+  for (const auto& [name, value] : arguments.fields)
+    job.settings.push_back({name, value, field(name), ErrorKind::usage});
+  if (!arguments.encoding.empty())
+    job.encoding = arguments.encoding == "srgb" ? Encoding::srgb : Encoding::linear;
+  job.folder = arguments.folder;
+  job.report = arguments.report;
+  job.depfile = arguments.depfile;
+  return job;
 }
 
 int run_bake(const BakeArguments& arguments, Console& console) {
@@ -164,45 +82,25 @@ int run_bake(const BakeArguments& arguments, Console& console) {
     console.print(arguments.report_format == "json" ? listed_presets_json() : listed_presets());
     return 0;
   }
-  if (arguments.sample.empty()) throw Error(ErrorKind::usage, "", "SAMPLE is required");
-  if (arguments.folder.empty()) throw Error(ErrorKind::usage, "", "--output is required");
   const JobLimit limit(arguments.jobs);
-  const BakeOptions options = options_from(arguments);
-  std::vector<MaterialFile> files = sample_files(arguments.sample);
-  for (const std::string& option : arguments.maps) files.push_back(parsed_map_option(option));
-  std::optional<Encoding> asked;
-  if (!arguments.encoding.empty()) asked = arguments.encoding == "srgb" ? Encoding::srgb : Encoding::linear;
-
-  Stopwatch watch;
-  check_outputs_of(arguments, files); // before minutes are spent on what can't be stored
-  StageClock clock;
-  const Progress progress = clock.around(console.progress());
-  report(progress, "reading", 0.0);
-  const std::vector<SampleMap> samples = read_samples(files, asked);
-  if (const std::string doubt = doubt_about_color(samples[0], asked); !doubt.empty()) console.note(doubt);
-  const double read_seconds = watch.lap();
-  const BakedPack made = baked(samples, options, progress);
-  const double bake_seconds = watch.lap();
-  // What the report says is found while files are written.
-  BakeSummary story{fs::path(arguments.sample).filename().string(), {}, {}};
-  tbb::task_group figures;
-  figures.run([&] { story.facts = bake_facts(made, samples); });
-  const PackDescription description = described(made.pack);
-  const std::unique_ptr<StagedFile> depfile = staged_depfile(arguments, files, description);
-  write_pack(made.pack, arguments.folder, progress);
-  if (depfile) depfile->commit();
-  figures.wait();
-  const double write_seconds = watch.lap();
-  if (!arguments.report.empty()) {
-    story.stages = clock.shares();
-    write_text_file(arguments.report, bake_page(story, made, samples));
+  const BakeJob job = job_from(arguments);
+  BakeSummary story{std::filesystem::path(job.sample).filename().string(), {}, {}};
+  JobWatch watch;
+  watch.progress = [draw = console.progress()](std::string_view, std::string_view stage, double done) {
+    draw(stage, done);
+  };
+  watch.note = [&](std::string_view line) { console.note(spelled(line, FieldSpelling::option)); };
+  watch.made = [&](const BakedJob& baked) { story.facts = bake_facts(baked.made, baked.samples); };
+  const BakedJob baked = run(job, watch);
+  if (!job.report.empty()) {
+    story.stages = baked.stages;
+    write_text_file(job.report, bake_page(story, baked.made, baked.samples));
   }
-
   console.print(arguments.report_format == "json"
-                    ? made_json(description, arguments.folder, &story.facts)
-                    : bake_report_text(description, arguments.folder, &story.facts));
-  console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", read_seconds, bake_seconds,
-                           write_seconds));
+                    ? made_json(baked.description, job.folder, &story.facts)
+                    : bake_report_text(baked.description, job.folder, &story.facts));
+  console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", baked.read_seconds,
+                           baked.bake_seconds, baked.write_seconds));
   return 0;
 }
 

@@ -69,7 +69,7 @@ void write_drawing(const OutputFile& output, const VectorDrawing& drawing) {
   else if (extension == ".png")
     write_image(file, rasterised(drawing), Depth::u8, Encoding::srgb);
   else
-    throw Error(ErrorKind::usage, output.option, without_ending(file, ".png or .svg"));
+    throw Error(ErrorKind::usage, output.where, without_ending(file, ".png or .svg"));
 }
 
 int run_inspect_mapping(const InspectArguments& arguments, Console& console) {

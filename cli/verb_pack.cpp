@@ -1,12 +1,13 @@
 #include "bake_field_options.h"
 #include "bake_report.h"
 #include "jobs.h"
-#include "output_file.h"
 #include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/bake/bake_fields.h"
 #include "tilepack/bake/hand_drawn_set.h"
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/text_file.h"
 #include "tilepack/error/error.h"
 #include "tilepack/pack/pack_write.h"
 #include "tilepack/report/pack_summary.h"
@@ -15,21 +16,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace tilepack::cli {
 namespace {
-
-// The bake options that are about packing.
-constexpr std::array packing_fields{"layout",       "scheme",      "gutter", "power-of-two", "turn-filter",
-                                    "border",       "corner-pack", "mips",   "jump-weight",  "mapping",
-                                    "virtual-size", "format",      "depth",  "seed"};
 
 struct PackArguments {
   std::vector<std::string> tiles;
@@ -43,18 +36,6 @@ struct PackArguments {
   std::map<std::string, std::string> fields;
 };
 
-bool is_packing_field(const std::string& name) {
-  return std::find(packing_fields.begin(), packing_fields.end(), name) != packing_fields.end();
-}
-
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw Error(ErrorKind::cannot_read, file, "the list of colors can't be read");
-  return text.str();
-}
-
 Role role_of(const std::string& name) {
   for (const Role role : {Role::color, Role::normal, Role::roughness, Role::height})
     if (name == name_of(role)) return role;
@@ -67,7 +48,7 @@ BakeOptions options_from(const PackArguments& arguments, const TileColors& tiles
   const bool corner = coloring_of(tiles) == Coloring::corner;
   settings.push_back({"coloring", corner ? "corner" : "edge", "", ErrorKind::internal});
   for (const auto& [field, value] : arguments.fields)
-    settings.push_back({field, value, "--" + field, ErrorKind::usage});
+    settings.push_back({field, value, tilepack::field(field), ErrorKind::usage});
   return bake_options(settings);
 }
 
@@ -92,7 +73,8 @@ void check_agreement(const TileSet& set, double tolerance, Console& console) {
 int run_pack(const PackArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
   check_pack_folder_for(arguments.folder, arguments.tiles);
-  const TileColors tiles = parsed_color_list(text_of(arguments.colors), arguments.colors);
+  const TileColors tiles =
+      parsed_color_list(read_text_file(arguments.colors, "the list of colors"), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);
   std::vector<HandDrawnTile> drawings;
   const Role role = role_of(arguments.role);
@@ -100,15 +82,14 @@ int run_pack(const PackArguments& arguments, Console& console) {
     drawings.push_back(
         {file, read_image(file, role == Role::color ? std::nullopt : std::optional(Encoding::linear))});
   TileSet set = drawn_set(drawings, tiles, arguments.name, role);
-  check_packing(options, set.tiles, set.tile_size);
+  const PackingPlan plan = planned_packing(options, set.tiles, set.tile_size);
   check_agreement(set, arguments.tolerance, console);
 
   const Progress progress = console.progress();
-  Pack pack = packed(std::move(set), options, options.synth.seed, progress);
+  Pack pack = packed(std::move(set), plan, options.synth.seed, progress);
   pack.generator.version = TILEPACK_VERSION;
   pack.generator.seed = options.synth.seed;
-  for (auto& option : recorded_options(options))
-    if (is_packing_field(option.first)) pack.generator.options.push_back(std::move(option));
+  pack.generator.options = recorded_options(options, packing_fields());
   write_pack(pack, arguments.folder, progress);
   const PackDescription made = described(pack);
   console.print(arguments.report_format == "json" ? made_json(made, arguments.folder)
@@ -135,9 +116,7 @@ Action declare_pack(Options& options) {
               "by how much borders of one color may differ, in parts of full scale, 0 to 1")
       .check(number(0, 1))
       .value("X");
-  for (const BakeField& field : bake_fields()) {
-    if (is_packing_field(field.name)) add_field_option(options, field, arguments->fields);
-  }
+  for (const BakeField& field : packing_fields()) add_field_option(options, field, arguments->fields);
   options.option("--report-format", arguments->report_format, "of the summary on stdout").one_of("text|json");
   add_jobs_option(options, arguments->jobs);
   return [arguments](Console& console) { return run_pack(*arguments, console); };

@@ -144,7 +144,7 @@ TEST_CASE("presets name the key, the value and the range", "[pack]") {
         "");
   CHECK_THAT(preset_fault(head + R"("tile-sise": 64})"), Contains("did you mean \"tile-size\""));
   CHECK(preset_fault(head + R"("effort": 12})") ==
-        "mine.json: effort: '12' is not allowed; it must be a whole number of 0 to 9");
+        "mine.json: \"effort\": '12' is not allowed; it must be a whole number of 0 to 9");
   CHECK_THAT(preset_fault(head + R"("effort": "5"})"), Contains("mine.json: effort"));
   CHECK_THAT(preset_fault(head + R"("tile-size": true})"), Contains("mine.json: tile-size"));
   CHECK_THAT(preset_fault(head + R"("corner-pack": "true"})"), Contains("must be true or false"));

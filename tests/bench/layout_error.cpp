@@ -166,21 +166,21 @@ int main(int argc, char** argv) {
       options.corner_pack = false;
       print_row(colors, "tile-index, one corner patch", edges, options);
       options.layout = LayoutKind::array;
-      options.border = 1;
+      options.array.border = 1;
       print_row(colors, "array, quilted, border 1", quilted, options);
-      options.border = 0;
+      options.array.border = 0;
       options.layout = LayoutKind::de_bruijn;
       print_row(colors, "de-bruijn, corner colors",
                 synthesized(sample, Coloring::corner, Construction::framed, colors, side), options);
       options.layout = LayoutKind::rotated;
       options.mapping = MappingKind::index;
       const TileSet few = subset(edges, sequential_edge_set(colors, colors));
-      options.scheme = RotatedScheme{colors, colors, 1};
-      print_row(colors, fmt::format("rotated {}, matching", formula(*options.scheme)), few, options);
-      options.gutter = 2;
-      print_row(colors, fmt::format("rotated {}, gutter 2", formula(*options.scheme)), few, options);
-      options.gutter.reset();
-      options.scheme.reset();
+      options.rotated.scheme = RotatedScheme{colors, colors, 1};
+      print_row(colors, fmt::format("rotated {}, matching", formula(*options.rotated.scheme)), few, options);
+      options.rotated.gutter = 2;
+      print_row(colors, fmt::format("rotated {}, gutter 2", formula(*options.rotated.scheme)), few, options);
+      options.rotated.gutter.reset();
+      options.rotated.scheme.reset();
       print_row(colors, "rotated, best plan", few, options);
     }
   } catch (const std::exception& error) {

@@ -37,8 +37,8 @@ TileSet wavy_set(const std::vector<EdgeTile>& tiles, int side) {
 Pack rotated_pack(std::optional<int> gutter = {}) {
   PackingOptions options;
   options.layout = LayoutKind::rotated;
-  options.scheme = RotatedScheme{2, 2, 1};
-  options.gutter = gutter;
+  options.rotated.scheme = RotatedScheme{2, 2, 1};
+  options.rotated.gutter = gutter;
   options.mapping = MappingKind::index;
   options.virtual_size = {6, 6};
   return packed(wavy_set(sequential_edge_set(2, 2), 32), options, 1);
@@ -47,7 +47,7 @@ Pack rotated_pack(std::optional<int> gutter = {}) {
 Pack array_pack() {
   PackingOptions options;
   options.layout = LayoutKind::array;
-  options.border = 4;
+  options.array.border = 4;
   options.virtual_size = {6, 6};
   return packed(framed_set(complete_edge_set(2, 2), {16, 16}, 5), options, 1);
 }

@@ -304,7 +304,7 @@ TEST_CASE("arrays are looked up with the texels beyond their layers") {
     Pack pack = small_pack(wanted);
     PackingOptions options;
     options.layout = LayoutKind::array;
-    options.border = border;
+    options.array.border = border;
     options.mips.mode = MipMode::edges;
     options.virtual_size = {40, 50};
     pack = packed(tile_set_of(pack), options, 3);

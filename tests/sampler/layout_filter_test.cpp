@@ -192,7 +192,7 @@ TEST_CASE("an array with borders is exact along edges; without, it is clamped th
   const TileSet set = framed_set(complete_corner_set(2), tile_size, 5);
   PackingOptions options = options_for(LayoutKind::array);
   CHECK(largest_errors(packed(set, options, 9)).edge > 0.1);
-  options.border = 1;
+  options.array.border = 1;
   const LargestErrors errors = largest_errors(packed(set, options, 9));
   CHECK(errors.interior == 0.0);
   CHECK(errors.edge == 0.0);
@@ -201,7 +201,7 @@ TEST_CASE("an array with borders is exact along edges; without, it is clamped th
 
 TEST_CASE("a rotated layout that isn't turned is exact along matching edges") {
   PackingOptions options = options_for(LayoutKind::rotated, MappingKind::index);
-  options.scheme = RotatedScheme{2, 0, 2};
+  options.rotated.scheme = RotatedScheme{2, 0, 2};
   const LargestErrors errors =
       largest_errors(packed(framed_set(sequential_edge_set(2, 2), tile_size, 5), options, 9));
   CHECK(errors.interior < 1e-12);
@@ -214,7 +214,7 @@ TEST_CASE("a turned layout is read at the turned place") {
   for (Image& tile : set.maps[0].tiles) tile = Image(8, 8, 3, 0.2f);
   PackingOptions options = options_for(LayoutKind::rotated, MappingKind::index);
   for (const RotatedScheme scheme : {RotatedScheme{2, 2, 1}, RotatedScheme{2, 0, 2}}) {
-    options.scheme = scheme;
+    options.rotated.scheme = scheme;
     const LargestErrors errors = largest_errors(packed(set, options, 9));
     CHECK(std::max({errors.interior, errors.edge, errors.corner}) < 1e-7);
   }
@@ -226,9 +226,9 @@ TEST_CASE("a turned layout is read at the turned place") {
           tile.texel(x, y)[c] = static_cast<float>(3 * x + 7 * y + 20) / 255.0f;
   set.maps[0].encoding = Encoding::linear;
   set.maps[0].depth = Depth::f32;
-  options.scheme = RotatedScheme{2, 2, 1};
-  options.gutter = 2;
-  options.turn_filter = ResampleFilter::bicubic;
+  options.rotated.scheme = RotatedScheme{2, 2, 1};
+  options.rotated.gutter = 2;
+  options.rotated.turn_filter = ResampleFilter::bicubic;
   const Pack pack = packed(set, options, 9);
   const ReferenceSampler sampler(pack, 0);
   double worst = 0;

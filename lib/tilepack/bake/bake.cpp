@@ -34,13 +34,14 @@ void check_choice(const BakeOptions& o) {
   const int most = edge ? 8 : 4;
   for (const int count : edge ? std::vector{k.horizontal, k.vertical} : std::vector{k.corner})
     if (count < 1 || count > most)
-      throw Error(ErrorKind::usage, "--colors",
+      throw Error(ErrorKind::usage, field("colors"),
                   fmt::format("{} is not allowed; it must be 1 to {}", count, most));
   if (o.set == SetKind::sequential && o.synth.coloring == Coloring::corner)
-    throw Error(ErrorKind::usage, "--set",
+    throw Error(ErrorKind::usage, field("set"),
                 "'sequential' is for edge coloring; corner-colored sets are complete");
   if (o.set == SetKind::sequential && o.layout == LayoutKind::tile_index)
-    throw Error(ErrorKind::usage, "--layout", "'tile-index' needs the complete set; use rotated or array");
+    throw Error(ErrorKind::usage, field("layout"),
+                "'tile-index' needs the complete set; use rotated or array");
 }
 
 std::string label_of(const SampleMap& map) {
@@ -61,7 +62,8 @@ void check_values(const SampleMap& map, Depth stored) {
   throw Error(ErrorKind::invalid_content, label_of(map),
               fmt::format("holds {} at texel ({}, {}); {} values may be {} to {}: scale the image{}", *bad,
                           texel % map.image.width(), texel / map.image.width(), name_of(stored), -largest,
-                          largest, stored == Depth::f16 ? ", or store it with --depth f32" : ""));
+                          largest,
+                          stored == Depth::f16 ? ", or store it with " + field("depth", "f32") : ""));
 }
 
 void check_fit(const SampleMap& sample, Size tile) {
@@ -71,7 +73,8 @@ void check_fit(const SampleMap& sample, Size tile) {
   const int side = std::min({size.width, size.height, most_tile_side});
   const std::string way_out =
       side >= least_tile_side
-          ? fmt::format("take tiles of {0} at most (--tile-size {0}) or a larger sample", side)
+          ? fmt::format("take tiles of {} at most ({}) or a larger sample", side,
+                        field("tile-size", std::to_string(side)))
           : fmt::format("no tile fits, since tiles have at least {} texels a side: take a larger sample",
                         least_tile_side);
   throw Error(ErrorKind::invalid_content, label_of(sample),
@@ -88,7 +91,8 @@ void check_samples(std::span<const SampleMap> samples, const BakeOptions& option
                   "is no name of a map; use 1 to 64 letters, digits, '-' and '_'");
     if (!names.insert(map.name).second)
       throw Error(ErrorKind::usage, map.name,
-                  "is the name of two maps; give each its own, as in --map NAME:ROLE=FILE");
+                  fmt::format("is the name of two maps; give each its own, as in {}",
+                              field("map", "NAME:ROLE=FILE")));
     if (map.image.size() != samples[0].image.size())
       throw Error(ErrorKind::invalid_content, label_of(map),
                   fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
@@ -103,7 +107,7 @@ void check_samples(std::span<const SampleMap> samples, const BakeOptions& option
 
 void check_flatten(int percent) {
   if (percent < 0 || percent > 100)
-    throw Error(ErrorKind::usage, "--flatten",
+    throw Error(ErrorKind::usage, field("flatten"),
                 fmt::format("{} is not allowed; it must be 0 to 100 percent", percent));
 }
 
@@ -149,7 +153,7 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   }
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);
-  check_packing(options, wanted, synth.tile_size); // before the long stage
+  const PackingPlan plan = planned_packing(options, wanted, synth.tile_size); // before the long stage
   check_fit(samples[0], synth.tile_size);
   check_flatten(options.flatten);
   BakedPack result;
@@ -164,11 +168,9 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   result.sample = analysed(samples, periods);
   result.sources = subset(synthesize(result.sample, synth, progress), wanted);
   report(progress, "figures", 0.0);
-  tbb::parallel_invoke([&] { result.report = set_report(result.sample, result.sources); },
-                       [&] {
-                         result.pack = packed(assembled(result.sources, samples), options, options.synth.seed,
-                                              progress);
-                       });
+  tbb::parallel_invoke(
+      [&] { result.report = set_report(result.sample, result.sources); },
+      [&] { result.pack = packed(assembled(result.sources, samples), plan, options.synth.seed, progress); });
   result.pack.generator.version = TILEPACK_VERSION;
   result.pack.generator.options = recorded_options(options);
   result.pack.generator.seed = options.synth.seed;

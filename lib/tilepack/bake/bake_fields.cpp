@@ -2,50 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
-#include <map>
+#include <optional>
 
 namespace tilepack {
 namespace {
-
-[[noreturn]] void refuse(const std::string& text, const std::string& allowed) {
-  throw Error(ErrorKind::usage, "", fmt::format("'{}' is not allowed; it must be {}", text, allowed));
-}
-
-// Digits only: no sign, no blank, no fraction; beyond 64 bits is out of range as well.
-bool parse_whole(std::string_view text, std::int64_t lowest, std::int64_t highest, std::int64_t& value) {
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc() && end == text.data() + text.size() && value >= lowest && value <= highest;
-}
-
-std::int64_t whole(const std::string& text, std::int64_t lowest, std::int64_t highest) {
-  std::int64_t value = 0;
-  if (!parse_whole(text, lowest, highest, value))
-    refuse(text, fmt::format("a whole number of {} to {}", lowest, highest));
-  return value;
-}
-
-struct Extent {
-  std::int64_t width;
-  std::int64_t height;
-};
-
-// "5" or "5x7".
-Extent extent(const std::string& text, std::int64_t lowest, std::int64_t highest,
-              const std::string& words = "", const char* form = "WxH") {
-  const std::size_t cross = text.find('x');
-  Extent e{};
-  if (!parse_whole(std::string_view(text).substr(0, cross), lowest, highest, e.width) ||
-      !parse_whole(std::string_view(text).substr(cross == std::string::npos ? 0 : cross + 1), lowest, highest,
-                   e.height))
-    refuse(text, fmt::format("N or {} with {} to {}{}", form, lowest, highest, words));
-  return e;
-}
-
-std::string shown(std::int64_t width, std::int64_t height) {
-  return width == height ? fmt::format("{}", width) : fmt::format("{}x{}", width, height);
-}
 
 template <typename Enum>
 struct Choice {
@@ -56,7 +18,8 @@ template <typename Enum>
 Choice(const char*, Enum) -> Choice<Enum>; // clang 14 deduces none for aggregates
 
 constexpr std::array colorings{Choice{"edge", Coloring::edge}, Choice{"corner", Coloring::corner}};
-constexpr std::array interiors{Choice{"patch", Construction::framed}, Choice{"quilt", Construction::quilt}};
+constexpr std::array constructions{Choice{"patch", Construction::framed},
+                                   Choice{"quilt", Construction::quilt}};
 constexpr std::array layouts{Choice{"tile-index", LayoutKind::tile_index},
                              Choice{"de-bruijn", LayoutKind::de_bruijn},
                              Choice{"rotated", LayoutKind::rotated}, Choice{"array", LayoutKind::array}};
@@ -66,8 +29,8 @@ constexpr std::array mip_modes{Choice{"none", MipMode::none}, Choice{"box", MipM
 constexpr std::array mappings{Choice{"permutation", MappingKind::permutation},
                               Choice{"mix", MappingKind::mix}, Choice{"even", MappingKind::even},
                               Choice{"index", MappingKind::index}};
-constexpr std::array tile_choices{Choice{"complete", SetKind::complete},
-                                  Choice{"sequential", SetKind::sequential}};
+constexpr std::array set_kinds{Choice{"complete", SetKind::complete},
+                               Choice{"sequential", SetKind::sequential}};
 constexpr std::array turn_filters{Choice{"bilinear", ResampleFilter::bilinear},
                                   Choice{"bicubic", ResampleFilter::bicubic},
                                   Choice{"lanczos", ResampleFilter::lanczos}};
@@ -87,10 +50,10 @@ std::string alternatives(const Choices& choices) {
 }
 
 template <typename Choices>
-auto chosen(const Choices& choices, const std::string& text) {
+auto choice_named(const Choices& choices, const std::string& text) {
   for (const auto& choice : choices)
     if (text == choice.name) return choice.value;
-  refuse(text, alternatives(choices));
+  refuse_value(text, alternatives(choices));
 }
 
 template <typename Choices, typename Enum>
@@ -100,57 +63,120 @@ std::string name_in(const Choices& choices, Enum value) {
   return "";
 }
 
-void set_coloring(BakeOptions& o, const std::string& text) {
-  o.synth.coloring = chosen(colorings, text);
+// A place in the options, which may be in one of their groups.
+template <typename Value, typename Options>
+auto at(Value Options::*member) {
+  return [=](auto& o) -> auto& {
+    return o.*member;
+  };
+}
+
+template <typename Group, typename Options, typename Value>
+auto at(Group Options::*group, Value Group::*member) {
+  return [=](auto& o) -> auto& {
+    return (o.*group).*member;
+  };
+}
+
+// The value that is there or, of an optional one that is unset, nothing.
+template <typename Value>
+std::optional<Value> held(const Value& value) {
+  return value;
+}
+template <typename Value>
+std::optional<Value> held(const std::optional<Value>& value) {
+  return value;
+}
+
+template <typename Place>
+FieldValue whole_number(std::int64_t lowest, std::int64_t highest, Place place) {
+  return {BakeFieldType::integer, "N",
+          [=](BakeOptions& o, const std::string& text) {
+            using Number = typename decltype(held(place(o)))::value_type;
+            place(o) = static_cast<Number>(parsed_whole(text, lowest, highest));
+          },
+          [=](const BakeOptions& o) {
+            const auto number = held(place(o));
+            return number ? fmt::format("{}", *number) : "";
+          }};
+}
+
+template <typename Place>
+FieldValue flag(Place place) {
+  return {BakeFieldType::flag, "true|false",
+          [=](BakeOptions& o, const std::string& text) { place(o) = parsed_flag(text); },
+          [=](const BakeOptions& o) { return std::string(place(o) ? "true" : "false"); }};
+}
+
+template <typename Choices, typename Place>
+FieldValue choice(const Choices& choices, Place place) {
+  return {BakeFieldType::choice, alternatives(choices),
+          [=](BakeOptions& o, const std::string& text) { place(o) = choice_named(choices, text); },
+          [=](const BakeOptions& o) {
+            const auto chosen = held(place(o));
+            return chosen ? name_in(choices, *chosen) : std::string();
+          }};
+}
+
+FieldValue read_by(BakeFieldType type, const char* shown, void (*set)(BakeOptions&, const std::string&),
+                   std::string (*get)(const BakeOptions&)) {
+  return {type, shown, set, get};
+}
+
+// One that has others follow it.
+FieldValue with_consequence(FieldValue value, void (*follow)(BakeOptions& options)) {
+  value.set = [set = value.set, follow](BakeOptions& o, const std::string& text) {
+    set(o, text);
+    follow(o);
+  };
+  return value;
+}
+
+void follow_coloring(BakeOptions& o) {
   const bool corner = o.synth.coloring == Coloring::corner;
   o.synth.colors = corner ? ColorCounts{0, 0, 2} : ColorCounts{2, 2, 0};
   o.layout = corner ? LayoutKind::de_bruijn : LayoutKind::tile_index;
+}
+
+// A small set only goes with what can hold it.
+void follow_set(BakeOptions& o) {
+  if (o.set != SetKind::sequential) return;
+  o.layout = LayoutKind::rotated;
+  o.mapping = MappingKind::index;
 }
 
 void set_colors(BakeOptions& o, const std::string& text) {
   if (o.synth.coloring == Coloring::corner) {
     std::int64_t count = 0;
     if (!parse_whole(text, 1, 4, count))
-      refuse(text, "a whole number of 1 to 4, of corners; 1 to 8 or HxV with --coloring edge");
+      refuse_value(text,
+                   "a whole number of 1 to 4, of corners; 1 to 8 or HxV with " + field("coloring", "edge"));
     o.synth.colors = {0, 0, static_cast<int>(count)};
   } else {
-    const Extent e = extent(text, 1, 8, ": H horizontal and V vertical colors", "HxV");
+    const Extent e = parsed_extent(text, 1, 8, ": H horizontal and V vertical colors", "HxV");
     o.synth.colors = {static_cast<int>(e.width), static_cast<int>(e.height), 0};
   }
 }
 
 std::string get_colors(const BakeOptions& o) {
   if (o.synth.coloring == Coloring::corner) return fmt::format("{}", o.synth.colors.corner);
-  return shown(o.synth.colors.horizontal, o.synth.colors.vertical);
+  return extent_text(o.synth.colors.horizontal, o.synth.colors.vertical);
 }
 
 void set_tile_size(BakeOptions& o, const std::string& text) {
   o.fit_tile_size = text == "auto";
   if (o.fit_tile_size) return;
-  const Extent e = extent(text, 4, 4096, ", or auto");
+  const Extent e = parsed_extent(text, 4, 4096, ", or auto");
   o.synth.tile_size = {static_cast<int>(e.width), static_cast<int>(e.height)};
 }
 
 std::string get_tile_size(const BakeOptions& o) {
-  return o.fit_tile_size ? "auto" : shown(o.synth.tile_size.width, o.synth.tile_size.height);
-}
-
-void set_flag(bool& flag, const std::string& text) {
-  if (text != "true" && text != "false") refuse(text, "true or false");
-  flag = text == "true";
-}
-
-// A small set only goes with what can hold it, so these follow, as the layout follows the coloring.
-void set_tile_choice(BakeOptions& o, const std::string& text) {
-  o.set = chosen(tile_choices, text);
-  if (o.set != SetKind::sequential) return;
-  o.layout = LayoutKind::rotated;
-  o.mapping = MappingKind::index;
+  return o.fit_tile_size ? "auto" : extent_text(o.synth.tile_size.width, o.synth.tile_size.height);
 }
 
 // "3,1" or "3,1,2".
 void set_scheme(BakeOptions& o, const std::string& text) {
-  const auto refused = [&] { refuse(text, "N,K or N,K,2 with 1 <= N <= 256 and 0 <= K <= N"); };
+  const auto refused = [&] { refuse_value(text, "N,K or N,K,2 with 1 <= N <= 256 and 0 <= K <= N"); };
   std::array<std::int64_t, 3> part{0, 0, 1};
   std::size_t count = 0;
   for (std::size_t at = 0; at <= text.size() && count < 4; ++count) {
@@ -161,119 +187,95 @@ void set_scheme(BakeOptions& o, const std::string& text) {
     at = end + 1;
   }
   if (count < 2 || part[1] > part[0]) refused();
-  o.scheme = RotatedScheme{static_cast<int>(part[0]), static_cast<int>(part[1]), static_cast<int>(part[2])};
+  o.rotated.scheme =
+      RotatedScheme{static_cast<int>(part[0]), static_cast<int>(part[1]), static_cast<int>(part[2])};
 }
 
 std::string get_scheme(const BakeOptions& o) {
-  if (!o.scheme) return "";
-  const std::string both = fmt::format("{},{}", o.scheme->n, o.scheme->k);
-  return o.scheme->squares == 1 ? both : both + ",2";
+  if (!o.rotated.scheme) return "";
+  const std::string both = fmt::format("{},{}", o.rotated.scheme->n, o.rotated.scheme->k);
+  return o.rotated.scheme->squares == 1 ? both : both + ",2";
 }
 
 void set_virtual_size(BakeOptions& o, const std::string& text) {
-  const Extent e = extent(text, 1, std::int64_t{1} << 31);
+  const Extent e = parsed_extent(text, 1, std::int64_t{1} << 31);
   o.virtual_size = {e.width, e.height};
 }
 
+std::string get_virtual_size(const BakeOptions& o) {
+  return extent_text(o.virtual_size.width, o.virtual_size.height);
+}
+
+// Not recorded where nothing was done.
+std::string get_flatten(const BakeOptions& o) {
+  return o.flatten > 0 ? fmt::format("{}", o.flatten) : "";
+}
+
 std::vector<BakeField> make_fields() {
-  using Type = BakeFieldType;
   using O = BakeOptions;
-  using T = std::string;
+  using enum FieldScope;
+  using Type = BakeFieldType;
+  FieldValue flatten = whole_number(0, 100, at(&O::flatten));
+  flatten.get = get_flatten;
   return {
-      {"tile-size", Type::extent, "N|WxH|auto",
-       "side of a tile in texels, 4 to 4096; auto: whole periods of the sample near 128", set_tile_size,
-       get_tile_size},
-      {"flatten", Type::integer, "N",
-       "percent of slow shading (uneven light, a tone that drifts) taken out of color and height, 0 to 100",
-       [](O& o, const T& text) { o.flatten = static_cast<int>(whole(text, 0, 100)); },
-       [](const O& o) { return o.flatten > 0 ? fmt::format("{}", o.flatten) : ""; }},
-      {"coloring", Type::choice, alternatives(colorings),
-       "what neighbouring tiles agree on; corner unless another option is for edge colors only", set_coloring,
-       [](const O& o) { return name_in(colorings, o.synth.coloring); }},
-      {"colors", Type::extent, "N|HxV",
-       "colors of horizontal and vertical edges, 1 to 8, or of corners, 1 to 4", set_colors, get_colors},
-      {"set", Type::choice, alternatives(tile_choices),
-       "tiles made: every combination of colors, or two for each north and west color, for an index map",
-       set_tile_choice, [](const O& o) { return name_in(tile_choices, o.set); }},
-      {"interior", Type::choice, alternatives(interiors),
-       "how the inside of a tile is made: its own window of the sample, or the patches of its edges alone",
-       [](O& o, const T& text) { o.synth.interior = chosen(interiors, text); },
-       [](const O& o) { return name_in(interiors, o.synth.interior); }},
-      {"guard", Type::integer, "N",
-       "texels either side of an edge that all tiles of its color share, 0 to an eighth of the tile",
-       [](O& o, const T& text) { o.synth.guard = static_cast<int>(whole(text, 0, 512)); },
-       [](const O& o) { return fmt::format("{}", o.synth.guard); }},
-      {"effort", Type::integer, "N", "time for quality, 0 (fast) to 9",
-       [](O& o, const T& text) { o.synth.effort = static_cast<int>(whole(text, 0, 9)); },
-       [](const O& o) { return fmt::format("{}", o.synth.effort); }},
-      {"seed", Type::integer, "N", "another number gives other tiles, 0 to 2^53 - 1",
-       [](O& o, const T& text) {
-         o.synth.seed = static_cast<std::uint64_t>(whole(text, 0, static_cast<std::int64_t>(largest_seed)));
-       },
-       [](const O& o) { return fmt::format("{}", o.synth.seed); }},
-      {"layout", Type::choice, alternatives(layouts), "how tiles lie in the texture",
-       [](O& o, const T& text) { o.layout = chosen(layouts, text); },
-       [](const O& o) { return name_in(layouts, o.layout); }},
-      {"scheme", Type::choice, "N,K[,2]",
-       "rotated layout: N² + K² tiles in a square texture, or that twice; the best unless given", set_scheme,
-       get_scheme},
-      {"gutter", Type::integer, "N",
-       "rotated layout: texels round each tile; unless given, 0 where neighbours match and 2 elsewhere",
-       [](O& o, const T& text) { o.gutter = static_cast<int>(whole(text, 0, 4096)); },
-       [](const O& o) { return o.gutter ? fmt::format("{}", *o.gutter) : ""; }},
-      {"power-of-two", Type::flag, "true|false", "rotated layout: sides of the texture are powers of two",
-       [](O& o, const T& text) { set_flag(o.power_of_two, text); },
-       [](const O& o) { return std::string(o.power_of_two ? "true" : "false"); }},
-      {"turn-filter", Type::choice, alternatives(turn_filters),
-       "rotated layout: how turned tiles are resampled",
-       [](O& o, const T& text) { o.turn_filter = chosen(turn_filters, text); },
-       [](const O& o) { return name_in(turn_filters, o.turn_filter); }},
-      {"border", Type::integer, "N", "array layout: texels round each tile, 0 or a power of two",
-       [](O& o, const T& text) { o.border = static_cast<int>(whole(text, 0, 2048)); },
-       [](const O& o) { return fmt::format("{}", o.border); }},
-      {"corner-pack", Type::flag, "true|false",
-       "add a pack of the surroundings of tile corners (edge coloring)",
-       [](O& o, const T& text) { set_flag(o.corner_pack, text); },
-       [](const O& o) { return std::string(o.corner_pack ? "true" : "false"); }},
-      {"mips", Type::choice, alternatives(mip_modes),
-       "what is done to the border texels of coarser levels; none: level 0 only",
-       [](O& o, const T& text) { o.mips.mode = chosen(mip_modes, text); },
-       [](const O& o) { return name_in(mip_modes, o.mips.mode); }},
-      {"jump-weight", Type::integer, "N",
-       "mips least-squares: cost of a jump across a border against that of an error, 0 to 1000",
-       [](O& o, const T& text) { o.mips.jump_weight = static_cast<int>(whole(text, 0, 1000)); },
-       [](const O& o) { return fmt::format("{}", o.mips.jump_weight); }},
-      {"roughness-from-normals", Type::flag, "true|false",
-       "coarser levels of roughness take up the spread of the normals they average",
-       [](O& o, const T& text) { set_flag(o.mips.roughness_from_normals, text); },
-       [](const O& o) { return std::string(o.mips.roughness_from_normals ? "true" : "false"); }},
-      {"alpha-coverage", Type::integer, "N",
-       "coarser levels keep the share of texels whose alpha reaches N percent, 1 to 100; 0: they don't",
-       [](O& o, const T& text) { o.mips.alpha_coverage = static_cast<int>(whole(text, 0, 100)); },
-       [](const O& o) { return fmt::format("{}", o.mips.alpha_coverage); }},
-      {"mapping", Type::choice, alternatives(mappings),
+      {"tile-size", tiles, read_by(Type::extent, "N|WxH|auto", set_tile_size, get_tile_size),
+       "side of a tile in texels, 4 to 4096; auto: whole periods of the sample near 128"},
+      {"flatten", tiles, flatten,
+       "percent of slow shading (uneven light, a tone that drifts) taken out of color and height, 0 to 100"},
+      {"coloring", tiles,
+       with_consequence(choice(colorings, at(&O::synth, &SynthOptions::coloring)), follow_coloring),
+       "what neighbouring tiles agree on; corner unless another option is for edge colors only"},
+      {"colors", tiles, read_by(Type::extent, "N|HxV", set_colors, get_colors),
+       "colors of horizontal and vertical edges, 1 to 8, or of corners, 1 to 4"},
+      {"set", tiles, with_consequence(choice(set_kinds, at(&O::set)), follow_set),
+       "tiles made: every combination of colors, or two for each north and west color, for an index map"},
+      {"interior", tiles, choice(constructions, at(&O::synth, &SynthOptions::interior)),
+       "how the inside of a tile is made: its own window of the sample, or the patches of its edges alone"},
+      {"guard", tiles, whole_number(0, 512, at(&O::synth, &SynthOptions::guard)),
+       "texels either side of an edge that all tiles of its color share, 0 to an eighth of the tile"},
+      {"effort", tiles, whole_number(0, 9, at(&O::synth, &SynthOptions::effort)),
+       "time for quality, 0 (fast) to 9"},
+      {"seed", packing,
+       whole_number(0, static_cast<std::int64_t>(largest_seed), at(&O::synth, &SynthOptions::seed)),
+       "another number gives other tiles, 0 to 2^53 - 1"},
+      {"layout", packing, choice(layouts, at(&O::layout)), "how tiles lie in the texture"},
+      {"scheme", packing, read_by(Type::choice, "N,K[,2]", set_scheme, get_scheme),
+       "rotated layout: N² + K² tiles in a square texture, or that twice; the best unless given"},
+      {"gutter", packing, whole_number(0, 4096, at(&O::rotated, &RotatedOptions::gutter)),
+       "rotated layout: texels round each tile; unless given, 0 where neighbours match and 2 elsewhere"},
+      {"power-of-two", packing, flag(at(&O::rotated, &RotatedOptions::power_of_two)),
+       "rotated layout: sides of the texture are powers of two"},
+      {"turn-filter", packing, choice(turn_filters, at(&O::rotated, &RotatedOptions::turn_filter)),
+       "rotated layout: how turned tiles are resampled"},
+      {"border", packing, whole_number(0, 2048, at(&O::array, &ArrayOptions::border)),
+       "array layout: texels round each tile, 0 or a power of two"},
+      {"corner-pack", packing, flag(at(&O::corner_pack)),
+       "add a pack of the surroundings of tile corners (edge coloring)"},
+      {"mips", packing, choice(mip_modes, at(&O::mips, &MipOptions::mode)),
+       "what is done to the border texels of coarser levels; none: level 0 only"},
+      {"jump-weight", packing, whole_number(0, 1000, at(&O::mips, &MipOptions::jump_weight)),
+       "mips least-squares: cost of a jump across a border against that of an error, 0 to 1000"},
+      {"roughness-from-normals", material, flag(at(&O::mips, &MipOptions::roughness_from_normals)),
+       "coarser levels of roughness take up the spread of the normals they average"},
+      {"alpha-coverage", material, whole_number(0, 100, at(&O::mips, &MipOptions::alpha_coverage)),
+       "coarser levels keep the share of texels whose alpha reaches N percent, 1 to 100; 0: they don't"},
+      {"mapping", packing, choice(mappings, at(&O::mapping)),
        "how the tile of a cell is found: hash table, integer hash, a pattern without near repeats placed by "
-       "the "
-       "hash (corner colors; then the default), or a stored map",
-       [](O& o, const T& text) { o.mapping = chosen(mappings, text); },
-       [](const O& o) { return o.mapping ? name_in(mappings, *o.mapping) : std::string(); }},
-      {"virtual-size", Type::extent, "N|WxH", "size of the virtual texture in tiles, 1 to 2^31",
-       set_virtual_size, [](const O& o) { return shown(o.virtual_size.width, o.virtual_size.height); }},
-      {"format", Type::choice, alternatives(formats),
-       "image files of the pack; as the depth asks for unless given",
-       [](O& o, const T& text) { o.format = chosen(formats, text); },
-       [](const O& o) { return o.format ? name_in(formats, *o.format) : ""; }},
-      {"depth", Type::choice, alternatives(depths), "of the stored channels; as in the sample unless given",
-       [](O& o, const T& text) { o.depth = chosen(depths, text); },
-       [](const O& o) { return o.depth ? name_in(depths, *o.depth) : ""; }},
+       "the hash (corner colors; then the default), or a stored map"},
+      {"virtual-size", packing, read_by(Type::extent, "N|WxH", set_virtual_size, get_virtual_size),
+       "size of the virtual texture in tiles, 1 to 2^31"},
+      {"format", packing, choice(formats, at(&O::format)),
+       "image files of the pack; as the depth asks for unless given"},
+      {"depth", packing, choice(depths, at(&O::depth)),
+       "of the stored channels; as in the sample unless given"},
   };
 }
 
 // Whether something is asked for that only edge-colored tiles have.
-bool asks_for_edge_colors(const std::map<std::string, const BakeSetting*>& settings) {
+bool asks_for_edge_colors(std::span<const BakeSetting> settings) {
   const auto value = [&](const char* field) {
-    const auto found = settings.find(field);
-    return found == settings.end() ? std::string() : found->second->value;
+    const BakeSetting* found = setting_of(settings, field);
+    return found ? found->value : std::string();
   };
   const std::string colors = value("colors");
   return value("layout") == "tile-index" || value("corner-pack") == "true" || value("set") == "sequential" ||
@@ -288,34 +290,49 @@ std::span<const BakeField> bake_fields() {
   return fields;
 }
 
+std::vector<BakeField> packing_fields() {
+  std::vector<BakeField> fields(bake_fields().begin(), bake_fields().end());
+  std::erase_if(fields, [](const BakeField& field) { return field.scope != FieldScope::packing; });
+  return fields;
+}
+
 std::vector<std::string> bake_field_names() {
   std::vector<std::string> names;
   for (const BakeField& field : bake_fields()) names.push_back(field.name);
   return names;
 }
 
+const BakeSetting* setting_of(std::span<const BakeSetting> settings, std::string_view field) {
+  const auto found = std::find_if(settings.rbegin(), settings.rend(),
+                                  [&](const BakeSetting& setting) { return setting.field == field; });
+  return found == settings.rend() ? nullptr : &*found;
+}
+
+Error blamed(const Error& error, std::span<const BakeSetting> settings) {
+  const BakeSetting* setting = setting_of(settings, error.field());
+  return setting ? Error(setting->kind, setting->where, error.what_happened()) : error;
+}
+
 BakeOptions bake_options(std::span<const BakeSetting> settings) {
-  std::map<std::string, const BakeSetting*> last;
-  for (const BakeSetting& setting : settings) last[setting.field] = &setting;
   BakeOptions options;
-  if (!last.contains("coloring")) set_coloring(options, asks_for_edge_colors(last) ? "edge" : "corner");
-  const auto apply = [&](const BakeField& field) {
-    const auto found = last.find(field.name);
-    if (found == last.end()) return;
-    const BakeSetting& setting = *found->second;
-    try {
-      field.set(options, setting.value);
-    } catch (const Error& error) {
-      throw Error(setting.blame, setting.where, error.what());
+  if (!setting_of(settings, "coloring"))
+    options.synth.coloring = asks_for_edge_colors(settings) ? Coloring::edge : Coloring::corner;
+  follow_coloring(options);
+  for (const BakeField& field : bake_fields())
+    if (const BakeSetting* setting = setting_of(settings, field.name)) {
+      try {
+        field.set(options, setting->value);
+      } catch (const Error& error) {
+        throw Error(setting->kind, setting->where, error.what_happened());
+      }
     }
-  };
-  for (const BakeField& field : bake_fields()) apply(field);
   return options;
 }
 
-std::vector<std::pair<std::string, std::string>> recorded_options(const BakeOptions& options) {
+std::vector<std::pair<std::string, std::string>> recorded_options(const BakeOptions& options,
+                                                                  std::span<const BakeField> fields) {
   std::vector<std::pair<std::string, std::string>> list;
-  for (const BakeField& field : bake_fields())
+  for (const BakeField& field : fields)
     if (std::string value = field.get(options); !value.empty() && field.name != "seed")
       list.emplace_back(field.name, std::move(value));
   return list;

@@ -143,8 +143,8 @@ std::vector<MaterialFile> material_files(std::span<const std::string> file_names
     auto& [ending, taken] = place->second;
     if (is_new || ending->rank < found->ending->rank) continue;
     if (ending->rank == found->ending->rank)
-      fail(fmt::format("'{}' and '{}' are both the {} map; keep one, or name the maps with --map", taken,
-                       file, found->ending->name));
+      fail(fmt::format("'{}' and '{}' are both the {} map; keep one, or name the maps with {}", taken, file,
+                       found->ending->name, field("map")));
     place->second = {found->ending, file};
   }
   // A folder may hold more than materials: without a color map there is nothing to start from.

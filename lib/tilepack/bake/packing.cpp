@@ -29,7 +29,7 @@ constexpr int longest_texture_side = 65536;
 void check_layout_fits(const PackingOptions& o, const TileColors& tiles) {
   const bool corner = coloring_of(tiles) == Coloring::corner;
   if (o.layout == (corner ? LayoutKind::tile_index : LayoutKind::de_bruijn))
-    throw Error(ErrorKind::usage, "--layout",
+    throw Error(ErrorKind::usage, field("layout"),
                 fmt::format("'{}' is for {} coloring; use {}, rotated or array with {} coloring",
                             name_of(o.layout), corner ? "edge" : "corner",
                             corner ? "de-bruijn" : "tile-index", corner ? "corner" : "edge"));
@@ -39,24 +39,25 @@ void check_layout_fits(const PackingOptions& o, const TileColors& tiles) {
   if (is_complete_set(tiles)) return;
   if (const MappingKind kind = mapping_kind(o, tiles); kind != MappingKind::index)
     throw Error(
-        ErrorKind::usage, "--mapping",
+        ErrorKind::usage, field("mapping"),
         fmt::format("'{}' needs the complete set, in the order of its colors; use index for these {} tiles",
                     name_of(kind), tile_count(tiles)));
 }
 
 void check_layout_options(const PackingOptions& o, Size tile_size) {
-  if (o.layout != LayoutKind::rotated && (o.scheme || o.gutter || o.power_of_two))
+  const RotatedOptions& r = o.rotated;
+  if (o.layout != LayoutKind::rotated && (r.scheme || r.gutter || r.power_of_two))
     throw Error(ErrorKind::usage,
-                o.scheme   ? "--scheme"
-                : o.gutter ? "--gutter"
-                           : "--power-of-two",
-                "is for --layout rotated");
+                r.scheme   ? field("scheme")
+                : r.gutter ? field("gutter")
+                           : field("power-of-two"),
+                fmt::format("is for {}", field("layout", "rotated")));
   if (o.layout == LayoutKind::rotated && tile_size.width != tile_size.height)
     throw Error(
-        ErrorKind::usage, "--tile-size",
+        ErrorKind::usage, field("tile-size"),
         fmt::format("{}x{} texels; tiles must be square to be turned", tile_size.width, tile_size.height));
-  if (o.layout != LayoutKind::array && o.border != 0)
-    throw Error(ErrorKind::usage, "--border", "is for --layout array");
+  if (o.layout != LayoutKind::array && o.array.border != 0)
+    throw Error(ErrorKind::usage, field("border"), fmt::format("is for {}", field("layout", "array")));
 }
 
 Layout layout_for(const PackingOptions& o, const TileColors& tiles, Size tile_size) {
@@ -66,21 +67,22 @@ Layout layout_for(const PackingOptions& o, const TileColors& tiles, Size tile_si
   case LayoutKind::de_bruijn:
     return de_bruijn_layout(std::get<std::vector<CornerTile>>(tiles));
   case LayoutKind::array:
-    return array_layout(tile_count(tiles), tile_size, o.border);
+    return array_layout(tile_count(tiles), tile_size, o.array.border);
   case LayoutKind::rotated:
     break;
   }
   LayoutRequest request;
   request.tiles = tile_count(tiles);
   request.tile_side = tile_size.width;
-  request.scheme = o.scheme;
-  request.gutter = o.gutter;
-  request.power_of_two = o.power_of_two;
+  request.scheme = o.rotated.scheme;
+  request.gutter = o.rotated.gutter;
+  request.power_of_two = o.rotated.power_of_two;
   return planned_layout(layout_plans(request, &tiles).front(), tile_size.width);
 }
 
-Mapping mapping_for(const PackingOptions& o, const TileSet& set, std::uint64_t seed) {
-  switch (mapping_kind(o, set.tiles)) {
+Mapping mapping_for(const PackingPlan& plan, const TileSet& set, std::uint64_t seed) {
+  const PackingOptions& o = plan.options;
+  switch (plan.mapping) {
   case MappingKind::permutation:
     return permutation_mapping(o.virtual_size, set.colors, seed);
   case MappingKind::mix:
@@ -108,7 +110,7 @@ void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
   const VirtualSize& size = o.virtual_size;
   if (kind == MappingKind::index && (size.width < 1 || size.height < 1 || size.width > longest_side ||
                                      size.height > longest_side || size.width * size.height > most_cells))
-    throw Error(ErrorKind::usage, "--virtual-size",
+    throw Error(ErrorKind::usage, field("virtual-size"),
                 fmt::format("{}x{} tiles; an index map has sides of 1 to {} and at most {} cells", size.width,
                             size.height, longest_side, most_cells));
 }
@@ -123,38 +125,37 @@ void convert(TileMap& map, const StoredFormat& to) {
   map.depth = to.depth;
 }
 
-PackedMap described_by(const TileMap& finest) {
-  return {finest.name, finest.role, finest.encoding, finest.depth, finest.tiles.front().channels(), {}};
-}
-
 } // namespace
 
-void check_packing(const PackingOptions& options, const TileColors& tiles, Size tile_size) {
+PackingPlan planned_packing(const PackingOptions& options, const TileColors& tiles, Size tile_size) {
   if (options.format && options.depth && !holds(*options.format, *options.depth))
     throw Error(
-        ErrorKind::usage, "--depth",
+        ErrorKind::usage, field("depth"),
         fmt::format("'{}' can't be stored in the format asked for; png holds u8 and u16, exr f16 and f32",
                     name_of(*options.depth)));
   check_layout_options(options, tile_size);
   check_layout_fits(options, tiles);
   if (options.corner_pack && (coloring_of(tiles) == Coloring::corner || !is_complete_set(tiles)))
-    throw Error(ErrorKind::usage, "--corner-pack",
+    throw Error(ErrorKind::usage, field("corner-pack"),
                 "is for complete edge-colored sets; corner-colored tiles need none");
   check_virtual_size(options, tiles);
-  const Size texture = texture_size(layout_for(options, tiles, tile_size), tile_size, 0);
+  PackingPlan plan{options, layout_for(options, tiles, tile_size), {}, mapping_kind(options, tiles)};
+  plan.texture = texture_size(plan.layout, tile_size, 0);
+  const Size texture = plan.texture;
   const std::int64_t texels = std::int64_t{texture.width} * texture.height;
   if (texels > most_texels_a_level || std::max(texture.width, texture.height) > longest_texture_side)
     throw Error(
-        ErrorKind::usage, "--tile-size",
+        ErrorKind::usage, field("tile-size"),
         fmt::format(
             "{} tiles of {} x {} texels make a texture of {} x {}; a pack has at most {} texels, and {} a "
             "side: take smaller tiles or fewer colors",
             tile_count(tiles), tile_size.width, tile_size.height, texture.width, texture.height,
             most_texels_a_level, longest_texture_side));
+  return plan;
 }
 
-Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, const Progress& progress) {
-  check_packing(options, set.tiles, set.tile_size);
+Pack packed(TileSet set, const PackingPlan& plan, std::uint64_t seed, const Progress& progress) {
+  const PackingOptions& options = plan.options;
   for (TileMap& map : set.maps)
     convert(map, stored_format_for(map.role, map.encoding, map.depth, {options.format, options.depth},
                                    StoredFor::pack));
@@ -163,8 +164,8 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
   pack.tile_size = set.tile_size;
   pack.colors = set.colors;
   pack.tiles = set.tiles;
-  pack.layout = layout_for(options, set.tiles, set.tile_size);
-  pack.mapping = mapping_for(options, set, seed);
+  pack.layout = plan.layout;
+  pack.mapping = mapping_for(plan, set, seed);
   pack.mip_mode = options.mips.mode;
   pack.guard = set.guard;
   const int maps = static_cast<int>(set.maps.size());
@@ -176,13 +177,13 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
     report(progress, "mips", static_cast<double>(m) / maps);
     const TileMap& finest = set.maps[static_cast<std::size_t>(m)];
     const std::vector<TileMap> coarser = coarser_levels(set, m, options.mips, &pack.layout);
-    PackedMap map = described_by(finest);
+    PackedMap map(finest, finest.tiles.front().channels());
     PackedMap corners = map;
     pack.tile_levels = levels_held(pack.layout, set.tile_size, static_cast<int>(coarser.size()) + 1);
     for (int level = 0; level < pack.tile_levels; ++level) {
       const TileMap& tiles = level == 0 ? finest : coarser[static_cast<std::size_t>(level - 1)];
       map.levels.push_back(quantised(
-          place_tiles(tiles, set.tiles, pack.layout, set.tile_size, level, {options.turn_filter, {}}),
+          place_tiles(tiles, set.tiles, pack.layout, set.tile_size, level, {options.rotated.turn_filter, {}}),
           map.depth));
       if (level == 0 && pack.layout.kind == LayoutKind::rotated)
         map.round_trips = round_trips(tiles, set.tiles, pack.layout, set.tile_size);
@@ -194,6 +195,11 @@ Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, cons
     if (pack.corner_pack) pack.corner_pack->maps.push_back(std::move(corners));
   }
   return pack;
+}
+
+Pack packed(TileSet set, const PackingOptions& options, std::uint64_t seed, const Progress& progress) {
+  const PackingPlan plan = planned_packing(options, set.tiles, set.tile_size);
+  return packed(std::move(set), plan, seed, progress);
 }
 
 } // namespace tilepack

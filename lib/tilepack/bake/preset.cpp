@@ -1,10 +1,13 @@
 #include "tilepack/bake/preset.h"
 
+#include "tilepack/bake/text_file.h"
+#include "tilepack/error/nearest_name.h"
 #include "tilepack/json/json_cursor.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace tilepack {
 namespace {
@@ -34,8 +37,8 @@ Preset parsed_preset(std::string_view text, const std::string& name, const std::
   Preset preset{name, root.member("purpose").text(1000), root.member("cost").text(1000), {}};
   for (const BakeField& field : bake_fields())
     if (const auto value = root.find(field.name))
-      preset.settings.push_back(
-          {field.name, text_value(*value, field.type), file + ": " + field.name, ErrorKind::invalid_content});
+      preset.settings.push_back({field.name, text_value(*value, field.type),
+                                 fmt::format("{}: \"{}\"", file, field.name), ErrorKind::invalid_content});
   bake_options(preset.settings); // throws if a value is out of range
   return preset;
 }
@@ -45,6 +48,31 @@ std::vector<Preset> built_in_presets() {
   for (const PresetText& text : built_in_preset_texts())
     presets.push_back(parsed_preset(text.json, std::string(text.name), fmt::format("preset {}", text.name)));
   return presets;
+}
+
+bool is_preset_file(const std::string& name) {
+  const auto texts = built_in_preset_texts();
+  const bool built_in =
+      std::any_of(texts.begin(), texts.end(), [&](const PresetText& text) { return text.name == name; });
+  return !built_in && std::filesystem::is_regular_file(name);
+}
+
+Preset preset_called(const std::string& name) {
+  std::vector<std::string> known;
+  for (Preset& preset : built_in_presets()) {
+    if (preset.name == name) return std::move(preset);
+    known.push_back(preset.name);
+  }
+  const std::filesystem::path file(name);
+  if (is_preset_file(name))
+    return parsed_preset(read_text_file(name, "the preset"), file.stem().string(), name);
+  if (file.has_parent_path() || file.has_extension())
+    throw Error(ErrorKind::cannot_read, name, "there is no such preset file");
+  const std::string nearest = nearest_name(name, known);
+  throw Error(ErrorKind::usage, field("preset"),
+              fmt::format("there is no preset '{}'; {}{} shows them, and a FILE is taken too", name,
+                          nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest),
+                          field("list-presets")));
 }
 
 } // namespace tilepack

@@ -28,6 +28,13 @@ Preset parsed_preset(std::string_view text, const std::string& name, const std::
 /// The presets of the source tree's presets/, compiled in, in alphabetical order.
 std::vector<Preset> built_in_presets();
 
+/// A built-in preset by its name, else the one in the file of that name. Throws Error: usage for the field
+/// "preset" if there is none, cannot_read for a path that leads nowhere, and as parsed_preset does.
+Preset preset_called(const std::string& name);
+
+/// Whether preset_called reads a file, and not a built-in one.
+bool is_preset_file(const std::string& name);
+
 /// One of them as its file was: what built_in_presets() parses.
 struct PresetText {
   std::string_view name;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace tilepack {
 
@@ -14,6 +16,18 @@ using Progress = std::function<void(std::string_view stage, double done)>;
 /// Calls `progress` unless it is empty.
 inline void report(const Progress& progress, std::string_view stage, double done) {
   if (progress) progress(stage, done);
+}
+
+/// The same of one of several jobs, by its name. Jobs may run side by side: then it is called from several
+/// threads at a time. It may throw to cancel the job that it is called about.
+using JobProgress = std::function<void(std::string_view job, std::string_view stage, double done)>;
+
+/// What the stages of `job` are given for `onward` to hear of them. Empty if `onward` is.
+inline Progress progress_of(std::string job, JobProgress onward) {
+  if (!onward) return {};
+  return [job = std::move(job), onward = std::move(onward)](std::string_view stage, double done) {
+    onward(job, stage, done);
+  };
 }
 
 } // namespace tilepack

@@ -33,17 +33,23 @@ struct RoundTrip {
 };
 
 /// One map of a pack: its levels as placed images, finest first, values as stored (rounded to `depth`).
-struct PackedMap {
-  std::string name;
-  Role role = Role::color;
-  Encoding encoding = Encoding::srgb;
-  Depth depth = Depth::u8;
+struct PackedMap : MapFormat {
   int channels = 0;
   std::vector<Image> levels;
-  std::vector<RoundTrip> round_trips = {}; ///< rotated layouts: one a filter, in the order of ResampleFilter
-  std::optional<ImageContainer> container = {}; ///< unset: the usual one of the depth
+  std::vector<RoundTrip> round_trips; ///< rotated layouts: one a filter, in the order of ResampleFilter
+  std::optional<ImageContainer> container; ///< unset: the usual one of the depth
 
   StoredFormat stored() const { return {container.value_or(usual_container(depth)), depth, encoding}; }
+
+  PackedMap() = default;
+  PackedMap(MapFormat format, int channel_count, std::vector<Image> images = {},
+            std::vector<RoundTrip> losses = {})
+      : MapFormat(std::move(format)), channels(channel_count), levels(std::move(images)),
+        round_trips(std::move(losses)) {}
+  PackedMap(std::string name_of_map, Role meaning, Encoding encoded, Depth stored, int channel_count,
+            std::vector<Image> images, std::vector<RoundTrip> losses = {})
+      : PackedMap(MapFormat{std::move(name_of_map), meaning, encoded, stored}, channel_count,
+                  std::move(images), std::move(losses)) {}
 };
 
 /// Who made the pack and how, so that it can be made again. No clock and no path.

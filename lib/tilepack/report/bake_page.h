@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/bake/stage_clock.h"
 #include "tilepack/report/bake_verdict.h"
 
 #include <span>
@@ -8,12 +9,6 @@
 #include <vector>
 
 namespace tilepack {
-
-/// How the time of a bake was spent: by stage, as shares of the whole.
-struct StageShare {
-  std::string stage;
-  double share = 0;
-};
 
 /// Everything that the page shows besides the pack and its sample.
 struct BakeSummary {

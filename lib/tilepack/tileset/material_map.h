@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tilepack {
@@ -20,23 +21,41 @@ enum class Role {
 
 std::string_view name_of(Role role);
 
-/// One image of a material: the exemplar, or one of several registered maps of equal size.
-struct SampleMap {
+/// What a map is called, what its values mean and how they are stored: the same whether it is a sample, cut
+/// into tiles or laid out in a pack.
+struct MapFormat {
   std::string name;                   ///< file-name-safe, unique in its set: "color", "normal", …
   Role role = Role::color;            ///<
-  Encoding encoding = Encoding::srgb; ///< of `image`
-  Depth depth = Depth::u8;            ///< as read; the depth of the pack unless told otherwise
-  Image image;                        ///< values as in the file (see Image)
-  std::string file = {};              ///< where it came from, for messages; may be empty
+  Encoding encoding = Encoding::srgb; ///< of the values held
+  Depth depth = Depth::u8;            ///< what the values are rounded to
+
+  bool operator==(const MapFormat&) const = default;
+};
+
+/// One image of a material: the exemplar, or one of several registered maps of equal size. Its depth is as
+/// read, and that of the pack unless told otherwise.
+struct SampleMap : MapFormat {
+  Image image;      ///< values as in the file (see Image)
+  std::string file; ///< where it came from, for messages; may be empty
+
+  SampleMap() = default;
+  SampleMap(MapFormat format, Image values, std::string from = {})
+      : MapFormat(std::move(format)), image(std::move(values)), file(std::move(from)) {}
+  SampleMap(std::string name_of_map, Role meaning, Encoding encoded, Depth stored, Image values,
+            std::string from = {})
+      : SampleMap(MapFormat{std::move(name_of_map), meaning, encoded, stored}, std::move(values),
+                  std::move(from)) {}
 };
 
 /// One map of a tile set: the tiles' images in the order of their ids, all of one size.
-struct TileMap {
-  std::string name;
-  Role role = Role::color;
-  Encoding encoding = Encoding::srgb;
-  Depth depth = Depth::u8;
+struct TileMap : MapFormat {
   std::vector<Image> tiles;
+
+  TileMap() = default;
+  TileMap(MapFormat format, std::vector<Image> images)
+      : MapFormat(std::move(format)), tiles(std::move(images)) {}
+  TileMap(std::string name_of_map, Role meaning, Encoding encoded, Depth stored, std::vector<Image> images)
+      : TileMap(MapFormat{std::move(name_of_map), meaning, encoded, stored}, std::move(images)) {}
 };
 
 } // namespace tilepack

@@ -1,4 +1,4 @@
-#include "bake_samples.h"
+#include "tilepack/bake/material_read.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/error/nearest_name.h"
@@ -11,7 +11,7 @@
 #include <array>
 #include <filesystem>
 
-namespace tilepack::cli {
+namespace tilepack {
 
 namespace fs = std::filesystem;
 
@@ -38,25 +38,25 @@ std::vector<MaterialFile> sample_files(const std::string& sample) {
   return files;
 }
 
-MaterialFile parsed_map_option(const std::string& option) {
-  const std::size_t equals = option.find('=');
-  const std::string label = option.substr(0, equals);
-  if (equals == std::string::npos || equals + 1 == option.size() || label.empty())
-    throw Error(ErrorKind::usage, "--map",
-                fmt::format("'{}' is not allowed; write ROLE=FILE or NAME:ROLE=FILE", option));
+MaterialFile parsed_map(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string label = text.substr(0, equals);
+  if (equals == std::string::npos || equals + 1 == text.size() || label.empty())
+    throw Error(ErrorKind::usage, field("map"),
+                fmt::format("'{}' is not allowed; write ROLE=FILE or NAME:ROLE=FILE", text));
   const std::size_t colon = label.find(':');
   const std::string name = label.substr(0, colon);
   const std::string role = colon == std::string::npos ? name : label.substr(colon + 1);
   static constexpr std::array roles{Role::color, Role::normal, Role::roughness, Role::height, Role::data};
   std::vector<std::string> known;
   for (const Role r : roles) {
-    if (name_of(r) == role) return {name, r, option.substr(equals + 1)};
+    if (name_of(r) == role) return {name, r, text.substr(equals + 1)};
     known.emplace_back(name_of(r));
   }
   const std::string nearest = nearest_name(role, known);
   const std::string hint = nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest);
   throw Error(
-      ErrorKind::usage, "--map",
+      ErrorKind::usage, field("map"),
       fmt::format("'{}' is no role{} The roles are color, normal, roughness, height and data: any other "
                   "map is {}:data=FILE",
                   role, hint, name));
@@ -76,11 +76,12 @@ std::string doubt_about_color(const SampleMap& map, std::optional<Encoding> aske
   const std::optional<MaterialFile> named = map_by_name(map.file);
   if (map.role != Role::color || !named || named->role == Role::color || asked) return "";
   const std::string role(name_of(named->role));
-  return fmt::format("{0} is taken as {1} color, though its name says {2}: beside its color map it goes as "
-                     "--map {3}={0}{4}",
-                     map.file, map.encoding == Encoding::srgb ? "an sRGB" : "a linear", named->name,
-                     role == named->name ? role : named->name + ":" + role,
-                     map.encoding == Encoding::srgb ? "; alone, --encoding linear takes plain values" : "");
+  const std::string label = role == named->name ? role : named->name + ":" + role;
+  const bool srgb = map.encoding == Encoding::srgb;
+  return fmt::format("{} is taken as {} color, though its name says {}: beside its color map it goes as {}{}",
+                     map.file, srgb ? "an sRGB" : "a linear", named->name,
+                     field("map", label + "=" + map.file),
+                     srgb ? "; alone, " + field("encoding", "linear") + " takes plain values" : "");
 }
 
-} // namespace tilepack::cli
+} // namespace tilepack

@@ -1,4 +1,4 @@
-#include "output_file.h"
+#include "tilepack/bake/output_check.h"
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/staged_file.h"
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace tilepack::cli {
+namespace tilepack {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ bool same_file(const std::string& a, const std::string& b) {
 
 void check_outputs(std::span<const OutputFile> outputs, std::span<const std::string> inputs) {
   const auto refuse = [](const OutputFile& output, const std::string& why) {
-    throw Error(ErrorKind::usage, output.option,
+    throw Error(ErrorKind::usage, output.where,
                 fmt::format("'{}' {}; choose another name", output.file, why));
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -41,7 +41,7 @@ void check_outputs(std::span<const OutputFile> outputs, std::span<const std::str
       if (same_file(output.file, input)) refuse(output, "would replace a file that is worked from");
     for (const OutputFile& other : outputs.first(i))
       if (!other.file.empty() && same_file(output.file, other.file))
-        refuse(output, fmt::format("is what {} writes too", other.option));
+        refuse(output, fmt::format("is what {} writes too", other.where));
   }
 }
 
@@ -55,13 +55,13 @@ std::vector<std::string> files_of_pack(const std::string& pack) {
 
 void check_pack_folder_for(const std::string& folder, std::span<const std::string> inputs) {
   if (const fs::path outer = pack_around(folder); !outer.empty())
-    throw Error(ErrorKind::usage, "--output",
+    throw Error(ErrorKind::usage, field("output"),
                 fmt::format("'{}' lies in the pack '{}'; choose a folder outside of it", folder,
                             outer.filename().string()));
   check_pack_folder(folder);
   if (!fs::exists(fs::path(folder) / "pack.json")) return;
   for (const std::string& file : files_of_pack(folder))
-    check_outputs(std::vector<OutputFile>{{"--output", file}}, inputs);
+    check_outputs(std::vector<OutputFile>{{field("output"), file}}, inputs);
 }
 
 std::string without_ending(const std::string& file, const std::string& allowed) {
@@ -78,17 +78,11 @@ void check_page_name(const OutputFile& output) {
   std::error_code fault;
   const bool named = (extension == ".html" || extension == ".htm") && !fs::is_directory(output.file, fault);
   if (output.file.empty() || named) return;
-  throw Error(ErrorKind::usage, output.option, without_ending(output.file, ".html"));
+  throw Error(ErrorKind::usage, output.where, without_ending(output.file, ".html"));
 }
 
 void check_writable(const std::string& file) {
   const StagedFile probe(file);
 }
 
-void write_text_file(const std::string& file, std::string_view text) {
-  StagedFile staged(file);
-  staged.write(0, std::as_bytes(std::span(text.data(), text.size())));
-  staged.commit();
-}
-
-} // namespace tilepack::cli
+} // namespace tilepack

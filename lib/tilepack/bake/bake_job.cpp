@@ -1,0 +1,205 @@
+#include "tilepack/bake/bake_job.h"
+
+#include "tilepack/bake/depfile.h"
+#include "tilepack/bake/material_read.h"
+#include "tilepack/bake/memory_estimate.h"
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/preset.h"
+#include "tilepack/image/image_file.h"
+#include "tilepack/image/staged_file.h"
+#include "tilepack/pack/pack_write.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace tilepack {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error blamed_on_job(const Error& error, const BakeJob& job, std::span<const BakeSetting> settings) {
+  const std::string name = error.field();
+  if (name.empty()) return error;
+  if (setting_of(settings, name)) return blamed(error, settings);
+  if (job.place.empty()) return error;
+  const ErrorKind kind = error.kind() == ErrorKind::usage ? ErrorKind::invalid_content : error.kind();
+  return Error(kind, fmt::format("{} \"{}\"", job.place, name), error.what_happened());
+}
+
+// Whatever `work` throws is blamed on where the job was told so. `work` gets all settings.
+template <typename Work>
+auto blaming(const BakeJob& job, Work work) {
+  std::vector<BakeSetting> settings = job.settings;
+  try {
+    settings = settings_of(job);
+    return work(std::as_const(settings));
+  } catch (const Error& error) {
+    throw blamed_on_job(error, job, settings);
+  }
+}
+
+std::string in_folder(const BakeJob& job, const std::string& file) {
+  return (fs::path(job.folder) / file).string();
+}
+
+std::vector<std::string> inputs_of(const BakeJob& job, const std::vector<MaterialFile>& maps) {
+  std::vector<std::string> files;
+  for (const MaterialFile& map : maps) files.push_back(map.file);
+  if (is_preset_file(job.preset)) files.push_back(job.preset);
+  return files;
+}
+
+// Refuses early what can't be written, or would replace what the pack is made from. A report inside the
+// pack's folder has to wait for the folder.
+void check_outputs_of(const BakeJob& job, const std::vector<std::string>& inputs) {
+  const OutputFile depfile{field("depfile"), job.depfile}, page{field("report"), job.report};
+  check_page_name(page);
+  check_outputs(std::vector{depfile, page}, inputs);
+  check_pack_folder_for(job.folder, inputs);
+  if (!depfile.file.empty()) check_writable(depfile.file);
+  if (page.file.empty()) return;
+  const fs::path folder = fs::absolute(page.file).parent_path().lexically_normal();
+  if (folder != (fs::absolute(job.folder) / "").lexically_normal().parent_path()) check_writable(page.file);
+}
+
+// A depfile that gets its name only once the pack is in place.
+std::unique_ptr<StagedFile> staged_depfile(const BakeJob& job, const std::vector<std::string>& inputs,
+                                           const std::vector<std::string>& pack_files) {
+  if (job.depfile.empty()) return nullptr;
+  check_outputs(std::vector<OutputFile>{{field("depfile"), job.depfile}}, pack_files);
+  const std::string text = depfile_text(in_folder(job, "pack.json"), inputs);
+  auto staged = std::make_unique<StagedFile>(job.depfile);
+  staged->write(0, std::as_bytes(std::span(text.data(), text.size())));
+  staged->check();
+  return staged;
+}
+
+std::vector<std::string> pack_files_of(const BakeJob& job, const PackDescription& description) {
+  std::vector<std::string> files{in_folder(job, "pack.json")};
+  for (const std::string& file : description.all_files()) files.push_back(in_folder(job, file));
+  return files;
+}
+
+void add_side_files(const BakeJob& job, std::vector<std::string>& files) {
+  for (const std::string& file : {job.report, job.depfile})
+    if (!file.empty()) files.push_back(file);
+}
+
+void write_job(const BakeJob& job, const std::vector<std::string>& inputs, const BakedJob& baked,
+               const JobWatch& watch, const Progress& progress) {
+  tbb::task_group beside;
+  if (watch.made) beside.run([&] { watch.made(baked); });
+  try {
+    const auto depfile = staged_depfile(job, inputs, pack_files_of(job, baked.description));
+    write_pack(baked.made.pack, job.folder, progress);
+    if (depfile) depfile->commit();
+  } catch (...) {
+    beside.wait();
+    throw;
+  }
+  beside.wait();
+}
+
+BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWatch& watch) {
+  const std::vector<MaterialFile> maps = maps_of(job);
+  const std::vector<std::string> inputs = inputs_of(job, maps);
+  StageClock clock;
+  Stopwatch watch_of_parts;
+  check_outputs_of(job, inputs); // before minutes are spent on what can't be stored
+  const Progress progress = clock.around(progress_of(job.name, watch.progress));
+  report(progress, "reading", 0.0);
+  BakedJob baked;
+  baked.samples = read_samples(maps, job.encoding);
+  if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
+      watch.note && !doubt.empty())
+    watch.note(doubt);
+  baked.read_seconds = watch_of_parts.lap();
+  baked.made = tilepack::baked(baked.samples, options, progress);
+  baked.bake_seconds = watch_of_parts.lap();
+  baked.description = described(baked.made.pack);
+  write_job(job, inputs, baked, watch, progress);
+  baked.write_seconds = watch_of_parts.lap();
+  baked.stages = clock.shares();
+  return baked;
+}
+
+} // namespace
+
+std::vector<BakeSetting> settings_of(const BakeJob& job) {
+  std::vector<BakeSetting> settings;
+  if (!job.preset.empty()) settings = preset_called(job.preset).settings;
+  settings.insert(settings.end(), job.settings.begin(), job.settings.end());
+  return settings;
+}
+
+BakeOptions options_of(const BakeJob& job) {
+  return blaming(job, [&](const auto& settings) { return bake_options(settings); });
+}
+
+std::vector<MaterialFile> maps_of(const BakeJob& job) {
+  std::vector<MaterialFile> files = sample_files(job.sample);
+  files.insert(files.end(), job.maps.begin(), job.maps.end());
+  return files;
+}
+
+std::vector<std::string> files_read(const BakeJob& job) {
+  return inputs_of(job, maps_of(job));
+}
+
+std::vector<std::string> files_written(const BakeJob& job) {
+  std::vector<std::string> files{in_folder(job, "pack.json")};
+  add_side_files(job, files);
+  return files;
+}
+
+std::vector<std::string> files_written(const BakeJob& job, const BakedJob& baked) {
+  std::vector<std::string> files = pack_files_of(job, baked.description);
+  add_side_files(job, files);
+  return files;
+}
+
+std::string canonical_options(const BakeJob& job) {
+  const BakeOptions options = options_of(job);
+  std::map<std::string, std::string> lines;
+  for (const BakeField& field : bake_fields()) lines[field.name] = field.get(options);
+  for (const MaterialFile& map : maps_of(job)) {
+    std::string& list = lines["maps"];
+    list += fmt::format("{}{}:{}", list.empty() ? "" : ",", map.name, name_of(map.role));
+  }
+  lines["encoding"] = job.encoding ? std::string(name_of(*job.encoding)) : "";
+  lines["version"] = TILEPACK_VERSION;
+  std::string text;
+  for (const auto& [key, value] : lines) text += fmt::format("{}={}\n", key, value);
+  return text;
+}
+
+std::int64_t peak_memory(const BakeJob& job) {
+  return blaming(job, [&](const auto& settings) {
+    std::vector<MapShape> shapes;
+    for (const MaterialFile& map : maps_of(job)) {
+      const ImageHeader header = read_image_header(map.file);
+      shapes.push_back({header.size, header.channels, header.depth});
+    }
+    const std::size_t threads =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    return memory_estimate(shapes, bake_options(settings), static_cast<int>(threads));
+  });
+}
+
+BakedJob run(const BakeJob& job, const JobWatch& watch) {
+  return blaming(job, [&](const auto& settings) {
+    if (job.sample.empty()) throw Error(ErrorKind::usage, "", "SAMPLE is required");
+    if (job.folder.empty()) throw Error(ErrorKind::usage, "", field("output") + " is required");
+    return run_checked(job, bake_options(settings), watch);
+  });
+}
+
+} // namespace tilepack

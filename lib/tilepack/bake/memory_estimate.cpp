@@ -1,0 +1,88 @@
+#include "tilepack/bake/memory_estimate.h"
+
+#include "tilepack/exemplar/feature_image.h"
+
+#include <algorithm>
+
+namespace tilepack {
+namespace {
+
+// Bytes; what each was fitted to stands in the header.
+constexpr double program = 13e6;
+constexpr double a_thread = 3.5e6;
+constexpr double about_a_sample_texel = 7.5;
+constexpr double about_a_tile_texel = 24;
+constexpr double about_a_float_stored = 32; // what the encoder of EXR holds
+constexpr double about_a_cell = 9;          // of an index map: its ids, and the bytes of index.png
+constexpr double a_float = 4;
+constexpr double all_levels = 4.0 / 3; // of a pyramid, its finest being 1
+
+// A rotated texture wastes a share, and is made once more by each filter that is compared.
+constexpr double rotated_share = 1.6;
+
+// Whole periods are found near the size asked for; the tile may grow to this many times its texels.
+constexpr double fitted_share = 1.5;
+
+double squared(double x) {
+  return x * x;
+}
+
+// Tiles that are synthesized: always the complete set.
+double made_tiles(const BakeOptions& o) {
+  const ColorCounts& k = o.synth.colors;
+  return o.synth.coloring == Coloring::corner ? squared(squared(k.corner))
+                                              : squared(static_cast<double>(k.horizontal) * k.vertical);
+}
+
+double packed_tiles(const BakeOptions& o) {
+  const ColorCounts& k = o.synth.colors;
+  return o.set == SetKind::sequential ? 2.0 * k.horizontal * k.vertical : made_tiles(o);
+}
+
+// Texels of the textures of a map's finest level to one texel of its tiles.
+double texture_share(const BakeOptions& o) {
+  const double width = o.synth.tile_size.width;
+  const double height = o.synth.tile_size.height;
+  double share = o.corner_pack ? 2 : 1;
+  if (o.layout == LayoutKind::array)
+    share *= (width + 2 * o.array.border) / width * (height + 2 * o.array.border) / height;
+  if (o.layout == LayoutKind::rotated)
+    share *= rotated_share * squared((width + 2 * o.rotated.gutter.value_or(2)) / width);
+  return share;
+}
+
+bool stored_as_floats(const MapShape& map, const BakeOptions& o) {
+  if (o.depth) return *o.depth == Depth::f16 || *o.depth == Depth::f32;
+  if (o.format) return *o.format == PackFormat::exr;
+  return map.depth == Depth::f16 || map.depth == Depth::f32;
+}
+
+} // namespace
+
+std::int64_t memory_estimate(std::span<const MapShape> maps, const BakeOptions& options, int threads) {
+  double channels = 0;
+  double float_channels = 0;
+  for (const MapShape& map : maps) {
+    channels += map.channels;
+    if (stored_as_floats(map, options)) float_channels += map.channels;
+  }
+  const double features = std::min<double>(channels, max_feature_channels);
+  const Size size = maps.empty() ? Size{} : maps.front().size;
+  const double sample_texels = static_cast<double>(size.width) * size.height;
+  const double tile_texels = static_cast<double>(options.synth.tile_size.width) *
+                             options.synth.tile_size.height * (options.fit_tile_size ? fitted_share : 1);
+
+  const double of_sample =
+      channels * a_float * (options.flatten > 0 ? 2 : 1) + features * all_levels + about_a_sample_texel;
+  const double of_tile = channels * a_float * (1 + all_levels * texture_share(options)) +
+                         float_channels * about_a_float_stored + about_a_tile_texel;
+  const double sources_left_out = (made_tiles(options) - packed_tiles(options)) * sizeof(std::int32_t) * 2;
+  double bytes = program + a_thread * threads + sample_texels * of_sample +
+                 tile_texels * (packed_tiles(options) * of_tile + sources_left_out);
+  if (options.mapping == MappingKind::index)
+    bytes += about_a_cell * static_cast<double>(options.virtual_size.width) *
+             static_cast<double>(options.virtual_size.height);
+  return static_cast<std::int64_t>(std::min(bytes, 9e18));
+}
+
+} // namespace tilepack

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tilepack {
+
+/// A file that is asked for, and who asks.
+struct OutputFile {
+  std::string where; ///< for messages: field("report")
+  std::string file;  ///< empty: not asked for
+};
+
+/// Throws Error (usage) if an output would replace one of `inputs`, which are read, or another output; also by
+/// another spelling of the same path or through links. To be called before anything is written.
+void check_outputs(std::span<const OutputFile> outputs, std::span<const std::string> inputs);
+
+/// The pack.json of `pack` (a folder or pack.json) and all files that it names. Throws Error if it can't be
+/// read.
+std::vector<std::string> files_of_pack(const std::string& pack);
+
+/// check_pack_folder, and Error (usage) for the field "output" if `folder` lies in another pack, or `inputs`
+/// are among the files of a pack in `folder`, which a new one replaces.
+void check_pack_folder_for(const std::string& folder, std::span<const std::string> inputs);
+
+/// What is wrong with the name of a file that does not end in one of `allowed`, for a message.
+std::string without_ending(const std::string& file, const std::string& allowed);
+
+/// Throws Error (usage) unless `output` is empty or ends in .html or .htm: a page is nothing else.
+void check_page_name(const OutputFile& output);
+
+/// Throws Error (cannot_write) if `file` can't be created in its folder. Leaves no trace.
+void check_writable(const std::string& file);
+
+} // namespace tilepack
