@@ -128,8 +128,8 @@ void refuse_window_options(const Options& options) {
   }
 }
 
-int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
-                  const std::string& filter, WrapMode border, const std::string& output, Console& console) {
+int render_camera(const CameraArguments& arguments, const Texture& texture, const RenderTarget& target,
+                  const std::string& output, Console& console) {
   if (arguments.span_error > 0 && arguments.reseed > 0) {
     throw Error(ErrorKind::usage, "--span-error", "chooses --reseed; give one of the two");
   }
@@ -137,10 +137,8 @@ int render_camera(const CameraArguments& arguments, const Pack& pack, int map, c
   options.stepping = {{span_method_of(arguments.span), arguments.reseed},
                       arguments.precision == "f64" ? SpanPrecision::f64 : SpanPrecision::f32,
                       arguments.span_error};
-  options.filter = view_filter_of(filter);
-  options.border = border;
   options.background = parsed_background(arguments.background);
-  const ViewRenderer renderer(pack, map, scene_of(arguments), camera_of(*arguments.camera),
+  const ViewRenderer renderer(texture, scene_of(arguments), camera_of(*arguments.camera),
                               parsed_size(arguments.size), options, target);
 
   const Size size = renderer.size();

@@ -3,8 +3,8 @@
 #include "console.h"
 #include "options.h"
 
-#include "tilepack/pack/pack.h"
-#include "tilepack/sampler/render.h"
+#include "tilepack/sampler/render_target.h"
+#include "tilepack/sampler/texture.h"
 
 #include <optional>
 #include <string>
@@ -30,8 +30,8 @@ void add_camera_options(Options& options, CameraArguments& arguments);
 void refuse_camera_options(const Options& options); ///< for windows: an option that needs --camera
 void refuse_window_options(const Options& options); ///< for views: --rect, --level, --scale
 
-/// Renders the view and writes it. `filter`: trilinear or anisotropic.
-int render_camera(const CameraArguments& arguments, const Pack& pack, int map, const RenderTarget& target,
-                  const std::string& filter, WrapMode border, const std::string& output, Console& console);
+/// Renders the view of a texture and writes it.
+int render_camera(const CameraArguments& arguments, const Texture& texture, const RenderTarget& target,
+                  const std::string& output, Console& console);
 
 } // namespace tilepack::cli

@@ -8,6 +8,7 @@
 #include "tilepack/mip/level_size.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/stored_format_for.h"
+#include "tilepack/sampler/pack_texture.h"
 #include "tilepack/sampler/render.h"
 
 #include <fmt/format.h>
@@ -125,8 +126,8 @@ int run_render(const RenderArguments& arguments, Console& console) {
     const int map = map_number(pack, arguments.map);
     const RenderTarget target =
         target_for(arguments.output, pack.maps[static_cast<std::size_t>(map)], arguments.encoding);
-    return render_camera(arguments.view, pack, map, target, arguments.filter, border, arguments.output,
-                         console);
+    const PackTexture texture(pack, map, view_filter_of(arguments.filter), border);
+    return render_camera(arguments.view, texture, target, arguments.output, console);
   }
   const Filter filter = filter_of(arguments.filter);
   std::optional<VirtualRect> rect;

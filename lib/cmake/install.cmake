@@ -9,7 +9,7 @@ file(RELATIVE_PATH modules_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LI
 set_target_properties(tilepack_cli PROPERTIES INSTALL_RPATH $ORIGIN/${modules_from_bin})
 install(TARGETS tilepack_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS tilepack_openimageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/tilepack)
-install(TARGETS tilepack EXPORT tilepackTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS tilepack_runtime tilepack EXPORT tilepackTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(
   DIRECTORY ${PROJECT_SOURCE_DIR}/lib/tilepack/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tilepack

@@ -34,11 +34,30 @@ endforeach()
 run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/samples/example -B ${WORK}/example -D CMAKE_PREFIX_PATH=${WORK}/moved
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_FLAGS=${FLAGS} -D CMAKE_BUILD_TYPE=${BUILD_TYPE})
 run(${CMAKE_COMMAND} --build ${WORK}/example)
-run(${WORK}/example/look_up ${SOURCE}/samples/pebbles.png)
-# Three points, each a coordinate and three channels.
-set(value " +[0-9]+\\.[0-9]+")
-if(NOT output MATCHES "^(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)$")
-  message(FATAL_ERROR "look_up printed\n${output}")
+
+# What only looks packs up links no part of what makes them.
+find_program(READELF readelf REQUIRED)
+run(${READELF} -d ${WORK}/example/look_up)
+if(output MATCHES "NEEDED[^\n]*opencv" OR NOT output MATCHES "NEEDED")
+  message(FATAL_ERROR "look_up links\n${output}")
+endif()
+# Its headers compile, the highest room's first so that each brings what it needs, and include nothing of those rooms.
+set(program "")
+foreach(room scanline sampler lookup pack mapping mip layout tileset image json numeric error)
+  file(GLOB headers RELATIVE ${WORK}/moved/include ${WORK}/moved/include/tilepack/${room}/*.h)
+  list(FILTER headers EXCLUDE REGEX "-inl\\.h$")
+  if(NOT headers)
+    message(FATAL_ERROR "no headers of ${room} are installed")
+  endif()
+  foreach(header ${headers})
+    string(APPEND program "#include <${header}>\n")
+  endforeach()
+endforeach()
+file(WRITE ${WORK}/headers.cpp "${program}")
+run(${COMPILER} -std=c++20 -fsyntax-only -H -I${WORK}/moved/include ${WORK}/headers.cpp)
+string(REGEX MATCH "tilepack/(exemplar|match|seam|synth|bake|batch|check|measure|bench|report)/[^\n]*" foreign "${output}")
+if(foreign OR NOT output MATCHES "tilepack/pack/pack\\.h")
+  message(FATAL_ERROR "the headers for looking packs up include ${foreign}")
 endif()
 
 # EXR files need the module that is loaded when first needed: both programs find the one installed.
@@ -49,9 +68,16 @@ string(REGEX MATCH "calling init: ${WORK}/moved/[^\n]*/libtilepack_openimageio.s
 if(NOT found)
   message(FATAL_ERROR "the installed program does not load the installed module")
 endif()
-run(${CMAKE_COMMAND} -E env LD_DEBUG=files ASAN_OPTIONS=detect_leaks=0 ${WORK}/example/look_up ${WORK}/pack/color_0.exr)
+run(${CMAKE_COMMAND} -E env LD_DEBUG=files ASAN_OPTIONS=detect_leaks=0 ${WORK}/example/look_up ${WORK}/pack)
 string(REGEX MATCH "calling init: ${WORK}/moved/[^\n]*/libtilepack_openimageio.so" found "${output}")
 if(NOT found)
   message(FATAL_ERROR "a program that uses tilepack does not load the installed module")
+endif()
+
+run(${WORK}/example/look_up ${WORK}/pack/pack.json)
+# Three points, each a coordinate and three channels.
+set(value " +[0-9]+\\.[0-9]+")
+if(NOT output MATCHES "^(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)$")
+  message(FATAL_ERROR "look_up printed\n${output}")
 endif()
 file(REMOVE_RECURSE ${WORK})

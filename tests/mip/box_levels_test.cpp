@@ -1,6 +1,6 @@
 #include "tilepack/mip/box_levels.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/mip/value_space.h"
+#include "tilepack/mip/level_values.h"
 #include "tilepack/numeric/random.h"
 
 #include <tbb/global_control.h>

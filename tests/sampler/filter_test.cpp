@@ -45,12 +45,6 @@ TEST_CASE("nearest_texel stays in the tile") {
   CHECK(nearest_texel(std::nextafter(1.0, 0.0), 1) == 0);
 }
 
-TEST_CASE("exact_log2 is the logarithm") {
-  for (int e = -40; e <= 40; ++e) CHECK(exact_log2(std::ldexp(1.0, e)) == e);
-  for (const double x : {0.3, 0.7, 1.5, 3.0, 10.0, 1e-5, 12345.678})
-    CHECK(exact_log2(x) == Approx(std::log2(x)).margin(1e-11));
-}
-
 TEST_CASE("filter names lead back to their filter") {
   for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
     CHECK(filter_named(name_of(filter)) == filter);

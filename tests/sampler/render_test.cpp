@@ -1,6 +1,7 @@
 #include "support/small_pack.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/numeric/exact_math.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/sampler/reference_sampler.h"
 #include "tilepack/sampler/render.h"

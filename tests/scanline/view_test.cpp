@@ -1,6 +1,8 @@
 #include "support/small_pack.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/sampler/pack_texture.h"
+#include "tilepack/sampler/render.h"
 #include "tilepack/scanline/view_render.h"
 
 #include <catch2/catch.hpp>
@@ -217,9 +219,8 @@ TEST_CASE("a view straight down at a pixel a texel shows the texture itself") {
   // 8 texels a tile, a tile a unit; 48 pixels see 6 units at distance 3 with 90 degrees.
   const Camera camera{{3, 3, 3}, {3, 0, 3}, {0, 0, -1}, 90};
   for (ViewFilter filter : {ViewFilter::trilinear, ViewFilter::anisotropic, ViewFilter::ewa}) {
-    ViewOptions options;
-    options.filter = filter;
-    const ViewRenderer view(pack, 0, ground(), camera, {48, 48}, options, stored);
+    const PackTexture packed(pack, 0, filter);
+    const ViewRenderer view(packed, ground(), camera, {48, 48}, {}, stored);
     const Renderer flat(pack, 0, {{0, 0, 48, 48}, 0, 1, Filter::bilinear}, stored);
     const Image seen = view.rows(0, 48), texture = flat.rows(0, 48);
     int wrong = 0;
@@ -233,10 +234,10 @@ TEST_CASE("views come out the same in any bands, and towards the horizon fade to
   const Pack pack = small_pack();
   ViewOptions options;
   options.stepping = {{SpanMethod::euler2, 0}, SpanPrecision::f32, 0.1};
-  options.filter = ViewFilter::anisotropic;
   options.background = {0.25f, 0.5f, 0.75f};
   const Size size{120, 100};
-  const ViewRenderer view(pack, 0, ground(), {{0, 1, 0}, {0, 0.5, -5}, {0.2, 1, 0}, 70}, size, options,
+  const PackTexture texture(pack, 0, ViewFilter::anisotropic);
+  const ViewRenderer view(texture, ground(), {{0, 1, 0}, {0, 0.5, -5}, {0.2, 1, 0}, 70}, size, options,
                           stored);
   const Image whole = view.rows(0, size.height);
   for (int y : {0, 1, 31, 32, 63, 99}) CHECK(view.rows(y, 1) == crop(whole, {0, y, size.width, 1}));
@@ -261,10 +262,10 @@ TEST_CASE("views come out the same in any bands, and towards the horizon fade to
 
 TEST_CASE("precision far from the origin of the plane does not fade") {
   const Pack pack = small_pack();
-  ViewOptions options;
+  const PackTexture texture(pack, 0, ViewFilter::trilinear);
   const auto at = [&](double x, double z) {
     const Camera camera{{x, 1, z}, {x, 0.3, z - 2}, {0.3, 1, 0}, 60};
-    return ViewRenderer(pack, 0, ground(), camera, {64, 48}, options, stored).rows(0, 48);
+    return ViewRenderer(texture, ground(), camera, {64, 48}, {}, stored).rows(0, 48);
   };
   // The virtual texture repeats after 6 x 5 tiles: the same view 30 million tiles away, exact in double.
   const Image home = at(0.5, 0.25), away = at(0.5 + 30e6, 0.25 - 30e6);
@@ -277,8 +278,10 @@ TEST_CASE("precision far from the origin of the plane does not fade") {
 TEST_CASE("scenes that show nothing give an empty picture, hostile ones a finite one") {
   const Pack pack = small_pack();
   const Camera camera{{0, 1, 0}, {0, 1, -5}};
+  const PackTexture texture(pack, 0, ViewFilter::trilinear);
+  const PackTexture sharp(pack, 0, ViewFilter::anisotropic);
   const auto picture = [&](const Scene& scene) {
-    return ViewRenderer(pack, 0, scene, camera, {32, 24}, {}, stored).rows(0, 24);
+    return ViewRenderer(texture, scene, camera, {32, 24}, {}, stored).rows(0, 24);
   };
   const Image nothing(32, 24, 3);
   CHECK(picture({}) == nothing);
@@ -318,10 +321,41 @@ TEST_CASE("scenes that show nothing give an empty picture, hostile ones a finite
     for (SpanPrecision precision : {SpanPrecision::f32, SpanPrecision::f64}) {
       ViewOptions options;
       options.stepping = stepping(method, precision);
-      options.filter = ViewFilter::anisotropic;
-      const Image image = ViewRenderer(pack, 0, triangles, camera, {64, 48}, options, stored).rows(0, 48);
+      const Image image = ViewRenderer(sharp, triangles, camera, {64, 48}, options, stored).rows(0, 48);
       CHECK(finite(image));
       CHECK_FALSE(image == Image(64, 48, 3));
+    }
+}
+
+namespace {
+
+// A texture that no pack makes: the place itself, and how far it moves across and down.
+class Coordinates final : public Texture {
+public:
+  int channels() const override { return 4; }
+  void sample(TileCoordinate u, TileCoordinate v, const Footprint& footprint,
+              std::span<double> out) const override {
+    out[0] = in_tiles(u, 0);
+    out[1] = in_tiles(v, 0);
+    out[2] = footprint.u_across;
+    out[3] = footprint.v_down;
+  }
+};
+
+} // namespace
+
+TEST_CASE("a view shows any texture") {
+  const Camera down{{3, 3, 3}, {3, 0, 3}, {0, 0, -1}, 90}; // 48 pixels see 6 units
+  const Coordinates coordinates;
+  const Image image =
+      ViewRenderer(coordinates, ground(), down, {48, 48}, {}, {Encoding::linear, Depth::f32}).rows(0, 48);
+  for (const int y : {0, 7, 47})
+    for (const int x : {0, 20, 47}) {
+      const auto texel = image.texel(x, y);
+      CHECK(texel[0] == Approx((x + 0.5) / 8));
+      CHECK(texel[1] == Approx((y + 0.5) / 8));
+      CHECK(texel[2] == Approx(1.0 / 8));
+      CHECK(texel[3] == Approx(1.0 / 8));
     }
 }
 
@@ -329,7 +363,8 @@ TEST_CASE("wrong view options are refused") {
   const Pack pack = small_pack();
   const Camera camera{{0, 1, 0}, {0, 0, -5}};
   const auto make = [&](const ViewOptions& options, int map = 0) {
-    ViewRenderer(pack, map, ground(), camera, {8, 8}, options, stored);
+    const PackTexture texture(pack, map, ViewFilter::trilinear);
+    ViewRenderer(texture, ground(), camera, {8, 8}, options, stored);
   };
   ViewOptions options;
   options.background = {0.5f};

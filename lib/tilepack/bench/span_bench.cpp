@@ -3,6 +3,7 @@
 #include "tilepack/bench/timing.h"
 #include "tilepack/error/error.h"
 #include "tilepack/measure/image_metrics.h"
+#include "tilepack/sampler/pack_texture.h"
 #include "tilepack/scanline/span_method.h"
 #include "tilepack/scanline/view_render.h"
 
@@ -135,7 +136,8 @@ std::function<void()> stepping_of(const std::vector<Span>& spans, const SpanOpti
   };
 }
 
-Image textured(const ViewTexture& texture, const ProjectedScene& scene, const ViewStepping& stepping) {
+Image textured(const Texture& texture, const RenderTarget& target, const ProjectedScene& scene,
+               const ViewStepping& stepping) {
   constexpr int band = scanlines_side_by_side;
   const Size size = scene.size();
   Image image(size.width, size.height, texture.channels());
@@ -143,7 +145,7 @@ Image textured(const ViewTexture& texture, const ProjectedScene& scene, const Vi
   tbb::parallel_for(0, (size.height + band - 1) / band, [&](int i) {
     const int rows = std::min(band, size.height - i * band);
     const auto pixels = view_pixels(scene.spans(i * band, rows), size.width, i * band, rows, stepping);
-    paste(image, texture.shade(pixels, background), 0, i * band);
+    paste(image, shade(texture, pixels, target, background), 0, i * band);
   });
   return image;
 }
@@ -189,14 +191,16 @@ void measure_view(SpanBench& bench, const Pack* pack, bool quick, const Progress
   const ViewStepping& truth = view_contenders().front();
   const ViewPixels exact = view_pixels(scene.spans(0, size.height), size.width, 0, size.height, truth);
 
-  std::optional<ViewTexture> texture;
+  std::optional<PackTexture> texture;
+  RenderTarget target;
   Image exact_picture;
   Size tile{128, 128};
   if (pack) {
     tile = pack->tile_size;
     const PackedMap& map = pack->maps[0];
-    texture.emplace(*pack, 0, RenderTarget{map.encoding, map.depth}, ViewFilter::trilinear);
-    exact_picture = textured(*texture, scene, truth);
+    target = {map.encoding, map.depth};
+    texture.emplace(*pack, 0, ViewFilter::trilinear);
+    exact_picture = textured(*texture, target, scene, truth);
   }
   for (const ViewStepping& stepping : view_contenders()) {
     report(progress, "views",
@@ -209,7 +213,7 @@ void measure_view(SpanBench& bench, const Pack* pack, bool quick, const Progress
         exact, view_pixels(scene.spans(0, size.height), size.width, 0, size.height, stepping), tile);
     if (texture) {
       figures.psnr =
-          difference(exact_picture, textured(*texture, scene, stepping), ValueRange::unit, 255).psnr;
+          difference(exact_picture, textured(*texture, target, scene, stepping), ValueRange::unit, 255).psnr;
       figures.textured = true;
     }
     bench.views.push_back(figures);
@@ -218,7 +222,7 @@ void measure_view(SpanBench& bench, const Pack* pack, bool quick, const Progress
   if (texture) {
     const std::vector<float> background(static_cast<std::size_t>(texture->channels()), 0.0f);
     const double start = thread_seconds();
-    texture->shade(exact, background);
+    shade(*texture, exact, target, background);
     bench.texturing = (thread_seconds() - start) * 1e9 / static_cast<double>(bench.view_pixels);
   }
 }

@@ -1,11 +1,12 @@
 #include "tilepack/image/encoding.h"
 
+#include "tilepack/numeric/exact_math.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <Imath/half.h>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -16,47 +17,18 @@ namespace {
 constexpr double linear_segment_end = 0.0031308; // in linear light
 constexpr double encoded_segment_end = 0.04045;
 
-// x^(-1/n) by Newton's iteration on y^-n = x, which divides by constants only:
-//   y <- y + y (1 - x y^n) / n,   with a relative error e turning into about (n + 1) / 2 e^2.
-// std::pow would do, but the C library picks another variant on processors with fused multiply-add, and its
-// last bit differs.
-//
-// The start value divides the bit pattern, read as an integer, by -n. That pattern is the logarithm with the
-// mantissa taken linearly, which is 0 to 0.0861 octaves too low, for x as for y; the magic number centres the
-// error. n = 12: start 3.3e-2, then 7e-3, 3e-4, 6e-7, 2e-12, 3e-23. n = 5: start 3.6e-2, 4e-3, 5e-5, 6e-9,
-// 1e-16.
-template <int n>
-double inverse_root(double x) {
-  constexpr double octave = 4503599627370496.0; // 2^52, one octave in the bit pattern
-  constexpr double magic = octave * (1023.0 - 0.0430357) * (1.0 + 1.0 / n);
-  const auto bits = static_cast<double>(std::bit_cast<std::int64_t>(x));
-  double y = std::bit_cast<double>(static_cast<std::int64_t>(magic - bits * (1.0 / n)));
-  for (int step = 0; step < (n == 12 ? 5 : 4); ++step) {
-    // Split so that no factor leaves the range of doubles, however large x is.
-    const double y2 = y * y;
-    const double residual = n == 12 ? 1.0 - x * (y2 * y2 * y2) * (y2 * y2 * y2) : 1.0 - x * (y2 * y) * y2;
-    y += y * residual * (1.0 / n);
-  }
-  return y;
-}
-
 // x^2.4 = x^3 / x^(3/5)
 double decode_positive(double v) {
   const double x = (v + 0.055) / 1.055;
-  const double y = inverse_root<5>(x);
+  const double y = exact_inverse_root<5>(x);
   return v <= encoded_segment_end ? v * (1.0 / 12.92) : x * x * x * (y * y * y);
 }
 
 // x^(5/12) = x / x^(7/12); the maximum keeps 0 away from the root, whose result is not used there.
 double encode_positive(double v) {
   const double x = std::max(v, linear_segment_end);
-  const double y = inverse_root<12>(x), y3 = y * y * y;
+  const double y = exact_inverse_root<12>(x), y3 = y * y * y;
   return v <= linear_segment_end ? v * 12.92 : 1.055 * (x * (y3 * y3 * y)) - 0.055;
-}
-
-// Channels that carry light; alpha is the last of 2 or 4.
-int color_channels(int channels) {
-  return channels - (channels % 2 == 0 ? 1 : 0);
 }
 
 template <typename F>

@@ -22,6 +22,11 @@ enum class Depth { u8, u16, f16, f32 };
 double srgb_to_linear(double encoded);
 double linear_to_srgb(double linear);
 
+/// How many of 1 to 4 channels carry light, or whatever it is: all but alpha, the last of 2 or 4.
+constexpr int color_channels(int channels) {
+  return channels - (channels % 2 == 0 ? 1 : 0);
+}
+
 /// The image decoded to linear light: all channels of an sRGB image but alpha, nothing for `linear`.
 /// The alpha channel is the last of 2 or 4.
 Image to_linear(const Image& image, Encoding encoding);

@@ -1,5 +1,7 @@
 #include "tilepack/image/resample.h"
 
+#include "tilepack/numeric/exact_math.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,18 +13,10 @@ namespace {
 constexpr int most_taps = 6;
 constexpr double pi = 3.14159265358979323846;
 
-// sin(pi x) for |x| <= 1/2. The C library's sine may differ in its last bit from one processor to another.
-double sine_of_half_turns(double x) {
-  const double squared = pi * x * pi * x;
-  double sum = 0;
-  for (int term = 19; term >= 3; term -= 2) sum = (1.0 - sum) * squared / (term * (term - 1));
-  return pi * x * (1.0 - sum);
-}
-
 double sinc(double x) {
   if (x == 0.0) return 1.0;
   const double nearest = std::floor(x + 0.5);
-  const double sine = sine_of_half_turns(x - nearest);
+  const double sine = exact_sine_of_half_turns(x - nearest);
   return (std::fmod(nearest, 2.0) == 0.0 ? sine : -sine) / (pi * x);
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace tilepack {
@@ -38,25 +39,48 @@ namespace {
 
 // Axes of a rotated layout's cell in texels of a texture of this size, and the part of it that the tile
 // takes.
-Placement rotated_cell(const Layout& layout, const Cell& cell, Size texture) {
-  const RotatedScheme& scheme = layout.rotated.scheme;
-  const double m = scheme.n * scheme.n + scheme.k * scheme.k;
-  const double across = texture.width / (m * scheme.squares);
+Placement rotated_cell(const LayoutWords& words, int column, int row, Size texture) {
+  const double n = words.n;
+  const double k = words.k;
+  const double m = n * n + k * k;
+  const double across = texture.width / (m * words.squares);
   const double down = texture.height / m;
-  return {{cell.column * across, cell.row * down},
-          {scheme.n * across, scheme.k * down},
-          {-scheme.k * across, scheme.n * down}};
+  return {{column * across, row * down}, {n * across, k * down}, {(0 - k) * across, n * down}};
 }
 
 } // namespace
 
+LayoutWords layout_words(const Layout& layout, Size tile_size) {
+  const auto word = [](int value) { return static_cast<std::uint32_t>(value); };
+  LayoutWords words;
+  words.columns = word(layout.columns);
+  words.rows = word(layout.rows);
+  words.tile_width = word(tile_size.width);
+  words.tile_height = word(tile_size.height);
+  words.border = word(layout.border);
+  if (layout.kind == LayoutKind::rotated) {
+    words.n = word(layout.rotated.scheme.n);
+    words.k = word(layout.rotated.scheme.k);
+    words.squares = word(layout.rotated.scheme.squares);
+    words.gutter = word(layout.rotated.gutter);
+  }
+  const Size grid = texture_size(words, 0); // of a rotated layout nothing yet
+  words.texture_width = word(words.n > 0 ? layout.rotated.size.width : grid.width);
+  words.texture_height = word(words.n > 0 ? layout.rotated.size.height : grid.height);
+  return words;
+}
+
+Size texture_size(const LayoutWords& words, int level) {
+  const auto side = [&](std::uint32_t whole, std::uint32_t tiles, std::uint32_t tile) {
+    if (words.n > 0) return std::max(1, static_cast<int>(whole >> level));
+    return static_cast<int>(tiles * ((tile >> level) + 2 * (words.border >> level)));
+  };
+  return {side(words.texture_width, words.columns, words.tile_width),
+          side(words.texture_height, words.rows, words.tile_height)};
+}
+
 Size texture_size(const Layout& layout, Size tile_size, int level) {
-  if (layout.kind == LayoutKind::rotated)
-    return {std::max(1, layout.rotated.size.width >> level),
-            std::max(1, layout.rotated.size.height >> level)};
-  const int border = 2 * (layout.border >> level);
-  return {layout.columns * ((tile_size.width >> level) + border),
-          layout.rows * ((tile_size.height >> level) + border)};
+  return texture_size(layout_words(layout, tile_size), level);
 }
 
 int levels_held(const Layout& layout, Size tile_size, int tile_levels) {
@@ -73,23 +97,27 @@ int levels_held(const Layout& layout, Size tile_size, int tile_levels) {
   return levels;
 }
 
-Placement placement(const Layout& layout, int tile, Size tile_size, int level) {
-  const Cell& cell = layout.cells.at(static_cast<std::size_t>(tile));
-  if (layout.kind == LayoutKind::rotated) {
-    const Placement whole = rotated_cell(layout, cell, texture_size(layout, tile_size, level));
-    const double cell_side = tile_size.width + 2 * layout.rotated.gutter;
-    const double gutter = layout.rotated.gutter / cell_side;
-    const double part = tile_size.width / cell_side;
+Placement placement(const LayoutWords& words, int column, int row, int level) {
+  if (words.n > 0) {
+    const Placement whole = rotated_cell(words, column, row, texture_size(words, level));
+    const double cell_side = words.tile_width + 2 * words.gutter;
+    const double gutter = words.gutter / cell_side;
+    const double part = words.tile_width / cell_side;
     return {whole.at(gutter, gutter),
             {whole.east.x * part, whole.east.y * part},
             {whole.south.x * part, whole.south.y * part}};
   }
-  const int border = layout.border >> level;
-  const double width = tile_size.width >> level;
-  const double height = tile_size.height >> level;
-  return {{cell.column * (width + 2 * border) + border, cell.row * (height + 2 * border) + border},
+  const double border = words.border >> level;
+  const double width = words.tile_width >> level;
+  const double height = words.tile_height >> level;
+  return {{column * (width + 2 * border) + border, row * (height + 2 * border) + border},
           {width, 0},
           {0, height}};
+}
+
+Placement placement(const Layout& layout, int tile, Size tile_size, int level) {
+  const Cell& cell = layout.cells.at(static_cast<std::size_t>(tile));
+  return placement(layout_words(layout, tile_size), cell.column, cell.row, level);
 }
 
 Image atlas(const std::vector<Image>& tiles, const Layout& layout) {

@@ -4,6 +4,7 @@
 #include "tilepack/layout/rotated_scheme.h"
 #include "tilepack/tileset/tile_colors.h"
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -91,6 +92,29 @@ struct Placement {
 
 /// Exact for grids and arrays: origin and axes are whole texels there.
 Placement placement(const Layout& layout, int tile, Size tile_size, int level);
+
+/// A layout's geometry as words of 32 bits, from which the size of every level and the place of every tile
+/// follow: what a lookup or a shader needs of it beside the cells. Sizes are in texels of level 0; level l has
+/// each side, and the border, shifted right by l.
+struct LayoutWords {
+  std::uint32_t columns = 0;    ///< see Layout
+  std::uint32_t rows = 0;       ///<
+  std::uint32_t tile_width = 0; ///< 1..16384
+  std::uint32_t tile_height = 0;
+  std::uint32_t border = 0;        ///< array: round each tile; others 0
+  std::uint32_t n = 0;             ///< rotated: the scheme's, n >= 1; others 0
+  std::uint32_t k = 0;             ///< rotated: 0..n
+  std::uint32_t squares = 0;       ///< rotated: 1 or 2
+  std::uint32_t gutter = 0;        ///< rotated
+  std::uint32_t texture_width = 0; ///< at level 0
+  std::uint32_t texture_height = 0;
+};
+
+LayoutWords layout_words(const Layout& layout, Size tile_size);
+
+/// As above, from words: of a level, and of the tile whose cell has this column and row.
+Size texture_size(const LayoutWords& words, int level);
+Placement placement(const LayoutWords& words, int column, int row, int level);
 
 /// All tiles of one level of a grid layout (tile_index, de_bruijn, array without border) side by side: an
 /// image of columns × rows tiles.

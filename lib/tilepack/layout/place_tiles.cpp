@@ -5,6 +5,7 @@
 #include "tilepack/layout/surroundings.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/tileset/border_colors.h"
+#include "tilepack/tileset/value_space.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -46,11 +47,10 @@ std::vector<Surroundings> chosen_surroundings(const TileColors& colors, const La
 // follows in channels of its own, for places where no texel read has any alpha.
 class WorkingValues {
 public:
-  explicit WorkingValues(const TileMap& tiles)
-      : map(&tiles), alpha(tiles.role == Role::color && tiles.tiles.front().channels() % 2 == 0) {}
+  explicit WorkingValues(const TileMap& tiles) : space(value_space(tiles)), alpha(space.has_alpha()) {}
 
   Image from_stored(const Image& tile) const {
-    Image linear = to_linear(tile, map->encoding);
+    Image linear = to_linear(tile, space.encoding);
     if (!alpha) return linear;
     const int colors = tile.channels() - 1;
     Image both(tile.width(), tile.height(), 2 * colors + 1);
@@ -70,7 +70,7 @@ public:
   void to_stored(std::span<const double> value, std::span<float> out) const {
     if (!alpha) {
       for (std::size_t c = 0; c < out.size(); ++c) out[c] = static_cast<float>(value[c]);
-      if (map->role == Role::normal && out.size() >= 3) renormalise(out);
+      if (space.has_vectors()) renormalise(out);
       return;
     }
     const std::size_t colors = out.size() - 1;
@@ -81,19 +81,7 @@ public:
   }
 
 private:
-  static void renormalise(std::span<float> normal) {
-    double squared = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double v = 2.0 * static_cast<double>(normal[c]) - 1.0;
-      squared += v * v;
-    }
-    if (!(squared > 0)) return;
-    const double length = std::sqrt(squared);
-    for (std::size_t c = 0; c < 3; ++c)
-      normal[c] = static_cast<float>(((2.0 * static_cast<double>(normal[c]) - 1.0) / length + 1.0) / 2.0);
-  }
-
-  const TileMap* map;
+  ValueSpace space;
   bool alpha;
 };
 

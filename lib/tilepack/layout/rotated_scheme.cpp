@@ -1,6 +1,7 @@
 #include "tilepack/layout/rotated_scheme.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/numeric/exact_math.h"
 
 #include <fmt/format.h>
 
@@ -71,15 +72,7 @@ std::string formula(const RotatedScheme& scheme) {
 }
 
 double angle_in_degrees(const RotatedScheme& scheme) {
-  // The C library's atan2 may differ in its last bit from one processor to another. Halving the angle three
-  // times, tan(a/2) = t / (1 + sqrt(1 + t²)), brings t below 0.099, where 12 terms of the series are exact to
-  // double precision.
-  double t = static_cast<double>(scheme.k) / static_cast<double>(scheme.n);
-  for (int halving = 0; halving < 3; ++halving) t = t / (1.0 + std::sqrt(1.0 + t * t));
-  double sum = 0;
-  for (int term = 11; term >= 0; --term) sum = 1.0 / (2 * term + 1) - t * t * sum;
-  constexpr double degrees_per_radian = 57.295779513082320877;
-  return 8.0 * t * sum * degrees_per_radian;
+  return exact_arctangent_in_degrees(static_cast<double>(scheme.k) / static_cast<double>(scheme.n));
 }
 
 } // namespace tilepack

@@ -35,19 +35,27 @@ inline std::uint32_t even_word(const MixKeys& keys, std::uint32_t x, std::uint32
   return mix_word(keys, x >> even_block_bits, y >> even_block_bits);
 }
 
-/// The color, 0..colors-1, of corner (x, y) of a block with this word.
-inline int even_color(std::uint32_t word, const int* pattern, std::uint32_t x, std::uint32_t y, int colors) {
+/// The block in which corner (x, y) lies, as one number: equal for corners of one block.
+inline std::uint64_t even_block_of(std::uint32_t x, std::uint32_t y) {
+  return std::uint64_t{x >> even_block_bits} << 32 | y >> even_block_bits;
+}
+
+/// The color, 0..colors-1, of corner (x, y) of a block with this word. `pattern`: even_pattern(colors).
+inline std::uint32_t even_color(std::uint32_t word, const int* pattern, std::uint32_t x, std::uint32_t y,
+                                std::uint32_t colors) {
   constexpr std::uint32_t mask = even_pattern_side - 1;
   const std::uint32_t u = (x + word) ^ (0u - (word >> 12 & 1u));
   const std::uint32_t v = (y + (word >> 6)) ^ (0u - (word >> 13 & 1u));
   const bool exchanged = (word >> 14 & 1u) != 0;
   const std::uint32_t column = (exchanged ? v : u) & mask;
   const std::uint32_t row = (exchanged ? u : v) & mask;
-  const int color = pattern[row * even_pattern_side + column] + color_of(word, colors);
+  const std::uint32_t color =
+      static_cast<std::uint32_t>(pattern[row * even_pattern_side + column]) + color_of(word, colors);
   return color < colors ? color : color - colors;
 }
 
-inline int even_color(const MixKeys& keys, const int* pattern, std::uint32_t x, std::uint32_t y, int colors) {
+inline std::uint32_t even_color(const MixKeys& keys, const int* pattern, std::uint32_t x, std::uint32_t y,
+                                std::uint32_t colors) {
   return even_color(even_word(keys, x, y), pattern, x, y, colors);
 }
 

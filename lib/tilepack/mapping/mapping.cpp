@@ -27,41 +27,6 @@ void check_size(VirtualSize size, std::int64_t longest, const char* way_out) {
                             size.height, longest, way_out));
 }
 
-// P[i mod n]; i is never negative here.
-std::int64_t entry(const std::vector<int>& table, std::int64_t i) {
-  return table[static_cast<std::size_t>(i % static_cast<std::int64_t>(table.size()))];
-}
-
-// The three families of lattice colors. x and y are already within the virtual texture.
-int horizontal_color(const Mapping& m, int colors, std::int64_t x, std::int64_t y) {
-  if (m.kind == MappingKind::mix) return mix_color(m.seed, MixAxis::horizontal, x, y, colors);
-  return static_cast<int>(entry(m.table, entry(m.table, x) + y) % colors); // [Wei04, Eq. 2]
-}
-
-int vertical_color(const Mapping& m, int colors, std::int64_t x, std::int64_t y) {
-  if (m.kind == MappingKind::mix) return mix_color(m.seed, MixAxis::vertical, x, y, colors);
-  return static_cast<int>(entry(m.table, x + entry(m.table, 2 * y)) % colors); // [Wei04, Eq. 2]
-}
-
-int corner_color(const Mapping& m, int colors, std::int64_t x, std::int64_t y) {
-  if (m.kind == MappingKind::mix) return mix_color(m.seed, MixAxis::corner, x, y, colors);
-  if (m.kind == MappingKind::even)
-    return even_color(mix_keys(m.seed, MixAxis::corner), m.table.data(), static_cast<std::uint32_t>(x),
-                      static_cast<std::uint32_t>(y), colors);
-  return static_cast<int>(entry(m.table, entry(m.table, x) + y) % colors);
-}
-
-// A coordinate and the next one, both within 0..side-1. Wrapping before adding keeps any std::int64_t valid.
-struct Neighbours {
-  std::int64_t here = 0;
-  std::int64_t next = 0;
-};
-
-Neighbours within(std::int64_t i, std::int64_t side) {
-  const std::int64_t here = wrapped(i, side);
-  return {here, here + 1 == side ? 0 : here + 1};
-}
-
 } // namespace
 
 std::string_view name_of(MappingKind kind) {
@@ -144,29 +109,47 @@ Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors) {
   return index;
 }
 
+LatticeWords lattice_words(const Mapping& mapping, const ColorCounts& colors) {
+  const bool corners = colors.corner > 0;
+  LatticeWords words;
+  words.kind = mapping.kind;
+  words.corner_colored = corners ? 1 : 0;
+  words.width = static_cast<std::uint32_t>(mapping.size.width);
+  words.height = static_cast<std::uint32_t>(mapping.size.height);
+  words.horizontal_colors = static_cast<std::uint32_t>(corners ? colors.corner : colors.horizontal);
+  words.vertical_colors = static_cast<std::uint32_t>(corners ? colors.corner : colors.vertical);
+  if (mapping.kind == MappingKind::mix || mapping.kind == MappingKind::even) {
+    words.horizontal_keys = mix_keys(mapping.seed, corners ? MixAxis::corner : MixAxis::horizontal);
+    words.vertical_keys = mix_keys(mapping.seed, MixAxis::vertical);
+  }
+  words.table_length = static_cast<std::uint32_t>(mapping.table.size());
+  words.table = mapping.table.data();
+  words.ids = mapping.ids.data();
+  return words;
+}
+
+LatticeCell cell_at(const LatticeWords& words, std::int64_t x, std::int64_t y) {
+  return {static_cast<std::uint32_t>(wrapped(x, std::int64_t{words.width})),
+          static_cast<std::uint32_t>(wrapped(y, std::int64_t{words.height}))};
+}
+
 EdgeTile edge_tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y) {
-  const auto [x0, x1] = within(x, mapping.size.width);
-  const auto [y0, y1] = within(y, mapping.size.height);
-  return {
-      horizontal_color(mapping, colors.horizontal, x0, y0), vertical_color(mapping, colors.vertical, x1, y0),
-      horizontal_color(mapping, colors.horizontal, x0, y1), vertical_color(mapping, colors.vertical, x0, y0)};
+  const LatticeWords words = lattice_words(mapping, colors);
+  const CellColors cell = colors_of_cell(words, cell_at(words, x, y));
+  return {static_cast<int>(cell.a), static_cast<int>(cell.b), static_cast<int>(cell.c),
+          static_cast<int>(cell.d)};
 }
 
 CornerTile corner_tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y) {
-  const auto [x0, x1] = within(x, mapping.size.width);
-  const auto [y0, y1] = within(y, mapping.size.height);
-  return {corner_color(mapping, colors.corner, x0, y0), corner_color(mapping, colors.corner, x1, y0),
-          corner_color(mapping, colors.corner, x0, y1), corner_color(mapping, colors.corner, x1, y1)};
+  const LatticeWords words = lattice_words(mapping, colors);
+  const CellColors cell = colors_of_cell(words, cell_at(words, x, y));
+  return {static_cast<int>(cell.a), static_cast<int>(cell.b), static_cast<int>(cell.c),
+          static_cast<int>(cell.d)};
 }
 
 int tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y) {
-  if (mapping.kind == MappingKind::index) {
-    const std::int64_t cell =
-        wrapped(y, mapping.size.height) * mapping.size.width + wrapped(x, mapping.size.width);
-    return mapping.ids[static_cast<std::size_t>(cell)];
-  }
-  if (colors.corner > 0) return id_in_complete_set(corner_tile_at(mapping, colors, x, y), colors.corner);
-  return id_in_complete_set(edge_tile_at(mapping, colors, x, y), colors.horizontal, colors.vertical);
+  const LatticeWords words = lattice_words(mapping, colors);
+  return static_cast<int>(tile_of_cell(words, cell_at(words, x, y)));
 }
 
 } // namespace tilepack

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/mapping/lattice_words.h"
 #include "tilepack/tileset/tile_colors.h"
 
 #include <cstdint>
@@ -7,8 +8,6 @@
 #include <vector>
 
 namespace tilepack {
-
-enum class MappingKind { permutation, mix, even, index };
 
 std::string_view name_of(MappingKind kind); ///< "permutation", "mix", "even", "index"
 
@@ -56,7 +55,14 @@ Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed);
 /// `mapping` written out cell by cell; at most 2^26 cells (Error, usage).
 Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors);
 
-/// Colors of the tile at cell (x, y), any integers: the texture wraps. Not for index mappings.
+/// The mapping as words, for lookups by lattice_words.h; `mapping` must outlive them.
+LatticeWords lattice_words(const Mapping& mapping, const ColorCounts& colors);
+
+/// The cell of the virtual texture at (x, y), any integers: the texture wraps.
+LatticeCell cell_at(const LatticeWords& words, std::int64_t x, std::int64_t y);
+
+/// Colors of the tile at cell (x, y), any integers: the texture wraps. Not for index mappings. Whoever asks
+/// for many draws the words once.
 EdgeTile edge_tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y);
 CornerTile corner_tile_at(const Mapping& mapping, const ColorCounts& colors, std::int64_t x, std::int64_t y);
 

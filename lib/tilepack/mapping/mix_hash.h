@@ -43,18 +43,13 @@ inline std::uint32_t mix_word(const MixKeys& keys, std::uint32_t x, std::uint32_
 
 /// The high half of a word scaled to 0..colors-1 (1 <= colors <= 8): biased by at most colors / 2^16, not at
 /// all for powers of two.
-inline int color_of(std::uint32_t word, int colors) {
-  return static_cast<int>(((word >> 16) * static_cast<std::uint32_t>(colors)) >> 16);
+inline std::uint32_t color_of(std::uint32_t word, std::uint32_t colors) {
+  return ((word >> 16) * colors) >> 16;
 }
 
 /// The color, 0..colors-1, of the lattice element (x, y), 0 <= x, y < 2^31.
-inline int mix_color(const MixKeys& keys, std::uint32_t x, std::uint32_t y, int colors) {
+inline std::uint32_t mix_color(const MixKeys& keys, std::uint32_t x, std::uint32_t y, std::uint32_t colors) {
   return color_of(mix_word(keys, x, y), colors);
-}
-
-inline int mix_color(std::uint64_t seed, MixAxis axis, std::int64_t x, std::int64_t y, int colors) {
-  return mix_color(mix_keys(seed, axis), static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                   colors);
 }
 
 } // namespace tilepack

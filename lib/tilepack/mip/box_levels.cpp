@@ -1,7 +1,7 @@
 #include "tilepack/mip/box_levels.h"
 
 #include "tilepack/mip/downsample.h"
-#include "tilepack/mip/value_space.h"
+#include "tilepack/mip/level_values.h"
 
 #include <tbb/parallel_for.h>
 

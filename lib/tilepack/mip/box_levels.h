@@ -7,7 +7,7 @@
 namespace tilepack {
 
 /// The levels of one tile of `map`, each a 2 × 2 box of the finer one (mip/downsample.h), from decoded values
-/// (mip/value_space.h): levels 1 to `levels - 1`, at their place in the result, whose first image is empty.
+/// (mip/level_values.h): levels 1 to `levels - 1`, at their place in the result, whose first image is empty.
 /// Levels up to `encoded` come encoded as the tile is, and not yet rounded; coarser ones as they may be
 /// averaged further. Means of unit vectors keep their length until they are encoded, else each level would
 /// weigh its children differently from their area.

@@ -5,7 +5,7 @@
 #include "tilepack/mip/least_squares.h"
 #include "tilepack/mip/normal_variance.h"
 #include "tilepack/mip/shared_border.h"
-#include "tilepack/mip/value_space.h"
+#include "tilepack/mip/level_values.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

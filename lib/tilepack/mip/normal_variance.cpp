@@ -1,5 +1,7 @@
 #include "tilepack/mip/normal_variance.h"
 
+#include "tilepack/image/encoding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,8 +11,7 @@ namespace tilepack {
 void add_normal_variance(Image& roughness, const Image& mean_normals) {
   // The mean of equal vectors misses length 1 by the rounding of floats alone.
   constexpr double rounding = 1e-6;
-  const std::size_t channels = static_cast<std::size_t>(roughness.channels());
-  const std::size_t values = channels % 2 == 0 ? channels - 1 : channels;
+  const auto values = static_cast<std::size_t>(color_channels(roughness.channels()));
   for (int y = 0; y < roughness.height(); ++y)
     for (int x = 0; x < roughness.width(); ++x) {
       const auto n = mean_normals.texel(x, y);

@@ -7,6 +7,7 @@
 #include "tilepack/mip/mip_mode.h"
 #include "tilepack/tileset/set_figures.h"
 #include "tilepack/tileset/tile_set.h"
+#include "tilepack/tileset/value_space.h"
 
 #include <cstdint>
 #include <optional>
@@ -51,6 +52,10 @@ struct PackedMap : MapFormat {
       : PackedMap(MapFormat{std::move(name_of_map), meaning, encoded, stored}, channel_count,
                   std::move(images), std::move(losses)) {}
 };
+
+inline ValueSpace value_space(const PackedMap& map) {
+  return {map.role, map.encoding, map.channels};
+}
 
 /// Who made the pack and how, so that it can be made again. No clock and no path.
 struct Generator {

@@ -33,9 +33,11 @@ public:
   const PackTexels& pack_texels() const { return texels; }
 
 private:
-  const Pack* pack;
+  const PackLookup& lookup() const { return texels.lookup(); }
+
   PackTexels texels;
   double blend_width;
+  double widest; // CornerPack::width
 };
 
 } // namespace tilepack

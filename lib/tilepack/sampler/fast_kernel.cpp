@@ -46,7 +46,7 @@ HWY_INLINE void divide_by_alpha(int channels, VF (&values)[4]) {
 
 // batch.count: at most a chunk, whole vectors.
 template <typename T>
-HWY_INLINE void look_up_chunk(const FastTables& t, const SampleBatch& batch, Filter filter, bool fixed,
+HWY_INLINE void look_up_chunk(const FastTables& t, const SampleBatch& batch, const LookupMode& mode,
                               Current& current, float* const* out) {
   const F f;
   const I i;
@@ -54,14 +54,14 @@ HWY_INLINE void look_up_chunk(const FastTables& t, const SampleBatch& batch, Fil
   HWY_ALIGN float rgba[4 * chunk];
   bool two_levels = false;
   for (std::size_t at = 0; at < batch.count; at += hn::Lanes(f)) {
-    const VI tile_x = batch.tile_x == nullptr ? hn::Zero(i) : hn::LoadU(i, batch.tile_x + at);
-    const VI tile_y = batch.tile_y == nullptr ? hn::Zero(i) : hn::LoadU(i, batch.tile_y + at);
-    const VF level = batch.level == nullptr ? hn::Zero(f) : hn::LoadU(f, batch.level + at);
-    RowTaps fine_taps, coarse_taps;
-    two_levels |= find_taps(t, tile_x, tile_y, hn::LoadU(f, batch.x + at), hn::LoadU(f, batch.y + at), level,
-                            filter, fixed, current, fine_taps, coarse_taps);
-    fine.store(fine_taps, at);
-    if (filter == Filter::trilinear) coarse.store(coarse_taps, at);
+    const Samples samples{batch.tile_x == nullptr ? hn::Zero(i) : hn::LoadU(i, batch.tile_x + at),
+                          batch.tile_y == nullptr ? hn::Zero(i) : hn::LoadU(i, batch.tile_y + at),
+                          hn::LoadU(f, batch.x + at), hn::LoadU(f, batch.y + at),
+                          batch.level == nullptr ? hn::Zero(f) : hn::LoadU(f, batch.level + at)};
+    const SampleTaps taps = find_taps(t, samples, mode, current);
+    two_levels |= taps.two_levels;
+    fine.store(taps.fine, at);
+    if (mode.filter == Filter::trilinear) coarse.store(taps.coarse, at);
   }
   weigh_chunk(static_cast<const T*>(t.texels), fine, two_levels ? &coarse : nullptr, batch.count, rgba);
   for (std::size_t at = 0; at < batch.count; at += hn::Lanes(f)) {
@@ -75,7 +75,7 @@ HWY_INLINE void look_up_chunk(const FastTables& t, const SampleBatch& batch, Fil
 template <typename T>
 void look_up_as(const FastTables& t, const SampleBatch& batch, Filter filter, Weights weights,
                 float* const* out) {
-  const bool fixed = weights == Weights::fixed_8_8 && filter != Filter::nearest;
+  const LookupMode mode{filter, weights == Weights::fixed_8_8 && filter != Filter::nearest};
   Current current;
   std::size_t start = 0;
   for (; batch.count - start >= chunk; start += chunk) {
@@ -85,14 +85,13 @@ void look_up_as(const FastTables& t, const SampleBatch& batch, Filter filter, We
                            from(batch.x), from(batch.y),      from(batch.level)};
     float* targets[4] = {};
     for (int c = 0; c < t.channels; ++c) targets[c] = out[c] + start;
-    look_up_chunk<T>(t, part, filter, fixed, current, targets);
+    look_up_chunk<T>(t, part, mode, current, targets);
   }
   if (start == batch.count) return;
   const Padded rest(batch, start);
   HWY_ALIGN float values[4][chunk];
   float* targets[4] = {values[0], values[1], values[2], values[3]};
-  look_up_chunk<T>(t, {chunk, rest.tile_x, rest.tile_y, rest.x, rest.y, rest.level}, filter, fixed, current,
-                   targets);
+  look_up_chunk<T>(t, {chunk, rest.tile_x, rest.tile_y, rest.x, rest.y, rest.level}, mode, current, targets);
   for (int c = 0; c < t.channels; ++c)
     for (std::size_t k = 0; start + k < batch.count; ++k) out[c][start + k] = values[c][k];
 }

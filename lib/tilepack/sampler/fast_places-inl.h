@@ -94,17 +94,19 @@ HWY_INLINE void settle(VI& tile, VF& fraction, std::int64_t side) {
 /// slow on many processors.
 HWY_INLINE VI places_of(const FastTables& t, VI x, VI y) {
   const I i;
-  if (t.lookup == FastTables::Lookup::none) return hn::Zero(i);
+  if (t.lookup == nullptr) return hn::Zero(i);
   HWY_ALIGN std::int32_t cell_x[most_lanes];
   HWY_ALIGN std::int32_t cell_y[most_lanes];
   HWY_ALIGN std::int32_t place[most_lanes];
   hn::Store(x, i, cell_x);
   hn::Store(y, i, cell_y);
-  place[0] = place_of_cell(t, cell_x[0], cell_y[0]);
+  const auto place_at = [&](std::size_t k) HWY_ATTR {
+    return static_cast<std::int32_t>(packed_place_of_cell(*t.lookup, static_cast<std::uint32_t>(cell_x[k]),
+                                                          static_cast<std::uint32_t>(cell_y[k])));
+  };
+  place[0] = place_at(0);
   for (std::size_t k = 1; k < hn::Lanes(i); ++k)
-    place[k] = cell_x[k] == cell_x[k - 1] && cell_y[k] == cell_y[k - 1]
-                   ? place[k - 1]
-                   : place_of_cell(t, cell_x[k], cell_y[k]);
+    place[k] = cell_x[k] == cell_x[k - 1] && cell_y[k] == cell_y[k - 1] ? place[k - 1] : place_at(k);
   return hn::Load(i, place);
 }
 
@@ -146,6 +148,11 @@ HWY_INLINE std::int32_t last_lane(VI v) {
   return lanes[hn::Lanes(I()) - 1];
 }
 
+HWY_INLINE VF in_256ths(VF weight) {
+  const F f;
+  return hn::Mul(hn::Round(hn::Mul(weight, hn::Set(f, 256.0f))), hn::Set(f, 1.0f / 256.0f));
+}
+
 /// Texel and weight along one axis: see bilinear_taps() and nearest_texel().
 HWY_INLINE VI taps_along(VF fraction, VF side, bool nearest, bool fixed, VF& weight) {
   const F f;
@@ -154,7 +161,7 @@ HWY_INLINE VI taps_along(VF fraction, VF side, bool nearest, bool fixed, VF& wei
     return to_integer(hn::Min(hn::Floor(hn::Mul(fraction, side)), hn::Sub(side, hn::Set(f, 1.0f))));
   }
   VF position = hn::MulSub(fraction, side, hn::Set(f, 0.5f));
-  if (fixed) position = hn::Mul(hn::Round(hn::Mul(position, hn::Set(f, 256.0f))), hn::Set(f, 1.0f / 256.0f));
+  if (fixed) position = in_256ths(position);
   const VF first = hn::Floor(position);
   weight = hn::Sub(position, first);
   return to_integer(first);
@@ -172,46 +179,67 @@ HWY_INLINE RowTaps taps_in(const LevelPlace& level, VF x, VF y, VF share, bool n
   return taps;
 }
 
-/// Finds the texels of a vector of samples. Returns whether any weight of the coarser level is above 0.
-HWY_INLINE bool find_taps(const FastTables& t, VI cell_x, VI cell_y, VF x, VF y, VF level, Filter filter,
-                          bool fixed, Current& current, RowTaps& fine_taps, RowTaps& coarse_taps) {
+/// A vector of samples: tile and fraction along both axes, and the level.
+struct Samples {
+  VI tile_x, tile_y;
+  VF x, y;
+  VF level;
+};
+
+/// How a batch is looked up.
+struct LookupMode {
+  Filter filter;
+  bool fixed; ///< weights in steps of 1/256
+};
+
+/// The texels of a vector of samples.
+struct SampleTaps {
+  RowTaps fine;
+  RowTaps coarse;  ///< of the next level; set for trilinear filtering only
+  bool two_levels; ///< whether any weight of the coarser level is above 0
+};
+
+HWY_INLINE SampleTaps find_taps(const FastTables& t, Samples at, const LookupMode& mode, Current& current) {
   const F f;
   const I i;
-  settle(cell_x, x, t.width);
-  settle(cell_y, y, t.height);
+  settle(at.tile_x, at.x, t.width);
+  settle(at.tile_y, at.y, t.height);
   const std::int32_t top = t.levels - 1;
-  level = hn::IfThenElseZero(hn::Eq(level, level), level); // NaN is level 0
+  VF level = hn::IfThenElseZero(hn::Eq(at.level, at.level), at.level); // NaN is level 0
   level = hn::Min(hn::Max(level, hn::Zero(f)), hn::Set(f, static_cast<float>(top)));
-  const bool blend = filter == Filter::trilinear;
+  const bool blend = mode.filter == Filter::trilinear;
   const VF whole = hn::Floor(blend ? level : hn::Add(level, hn::Set(f, 0.5f)));
   VF weight = blend ? hn::Sub(level, whole) : hn::Zero(f);
-  if (fixed) weight = hn::Mul(hn::Round(hn::Mul(weight, hn::Set(f, 256.0f))), hn::Set(f, 1.0f / 256.0f));
+  if (mode.fixed) weight = in_256ths(weight);
   const VI fine = to_integer(whole);
 
   LevelPlace fine_place, coarse_place;
   const auto same =
-      hn::And(hn::And(hn::Eq(cell_x, hn::Set(i, current.x)), hn::Eq(cell_y, hn::Set(i, current.y))),
+      hn::And(hn::And(hn::Eq(at.tile_x, hn::Set(i, current.x)), hn::Eq(at.tile_y, hn::Set(i, current.y))),
               hn::Eq(fine, hn::Set(i, current.level)));
   if (HWY_LIKELY(hn::AllTrue(i, same))) {
     const std::int32_t next = current.level < top ? current.level + 1 : top;
     fine_place = shared_level(t, current.level, hn::Set(i, current.origin[0]));
     coarse_place = shared_level(t, next, hn::Set(i, current.origin[1]));
   } else {
-    const VI place = t.lookup == FastTables::Lookup::none ? hn::Zero(i) : places_of(t, cell_x, cell_y);
+    const VI place = places_of(t, at.tile_x, at.tile_y);
     fine_place = level_of_each(t, place, fine);
     coarse_place = level_of_each(t, place, hn::Min(hn::Add(fine, hn::Set(i, 1)), hn::Set(i, top)));
-    current = {last_lane(cell_x),
-               last_lane(cell_y),
+    current = {last_lane(at.tile_x),
+               last_lane(at.tile_y),
                last_lane(fine),
                {last_lane(fine_place.origin), last_lane(coarse_place.origin)}};
   }
-  const bool nearest = filter == Filter::nearest;
+  const bool nearest = mode.filter == Filter::nearest;
   const VF unit = hn::Set(f, t.unit);
   const VF coarse_share = hn::Mul(weight, unit);
-  fine_taps = taps_in(fine_place, x, y, hn::Sub(unit, coarse_share), nearest, fixed);
-  if (!blend) return false;
-  coarse_taps = taps_in(coarse_place, x, y, coarse_share, nearest, fixed);
-  return !hn::AllTrue(f, hn::Eq(weight, hn::Zero(f)));
+  SampleTaps taps;
+  taps.fine = taps_in(fine_place, at.x, at.y, hn::Sub(unit, coarse_share), nearest, mode.fixed);
+  taps.two_levels = false;
+  if (!blend) return taps;
+  taps.coarse = taps_in(coarse_place, at.x, at.y, coarse_share, nearest, mode.fixed);
+  taps.two_levels = !hn::AllTrue(f, hn::Eq(weight, hn::Zero(f)));
+  return taps;
 }
 
 } // namespace HWY_NAMESPACE

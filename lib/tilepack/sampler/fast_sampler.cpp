@@ -1,7 +1,7 @@
 #include "tilepack/sampler/fast_sampler.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/mapping/even_pattern.h"
+#include "tilepack/lookup/lookup_tables.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/sampler/address.h"
 #include "tilepack/sampler/fast_corners.h"
@@ -22,12 +22,6 @@
 
 namespace tilepack {
 namespace {
-
-using Lookup = FastTables::Lookup;
-
-// The permutation is written out this far at most; packs that tilepack bakes need no more (see
-// permutation_mapping).
-constexpr std::int64_t longest_table = std::int64_t{1} << 20;
 
 // Samples a task, some 50 microseconds: large against what a task costs, small enough that others take over
 // what a thread would do that wakes up late.
@@ -86,7 +80,8 @@ struct FastSampler::State {
   FastTables tables;
   FastKernel kernel;
   std::vector<std::byte> texels;
-  std::vector<std::int32_t> places, first, second, horizontal, vertical, pattern;
+  Mapping mapping; // a copy, so that the pack may go
+  std::optional<LookupTables> lookup;
 
   void take_kernel(std::string_view target);
   std::optional<FastCorners> corner_pass;
@@ -97,7 +92,6 @@ struct FastSampler::State {
   void place_levels(const std::vector<Size>& sizes);
   void store_texel(int level, std::int64_t x, std::int64_t y, std::span<const float> texel);
   void take_mapping(const Pack& pack);
-  void take_permutation(const Pack& pack, bool corners);
 };
 
 void FastSampler::State::take_kernel(std::string_view target) {
@@ -121,7 +115,7 @@ void FastSampler::State::take_storage(const PackedMap& map, Size tile) {
   FastTables& t = tables;
   t.channels = map.channels;
   t.levels = levels;
-  t.alpha = map.role == Role::color && map.channels % 2 == 0;
+  t.alpha = value_space(map).has_alpha();
   t.storage = storage_for(map, t.alpha);
   t.unit = t.storage == TexelStorage::u8 ? 1.0f / 255 : t.storage == TexelStorage::u16 ? 1.0f / 65535 : 1.0f;
   for (int l = 0; l < levels; ++l) {
@@ -195,70 +189,16 @@ void FastSampler::State::take_layers(const Pack& pack, int map) {
   }
 }
 
-// P written out so that no sum of indices needs a mod: P[P[x] + y] with P[x] < n and y up to the height.
-void FastSampler::State::take_permutation(const Pack& pack, bool corners) {
-  const std::vector<int>& table = pack.mapping.table;
-  const auto n = static_cast<std::int64_t>(table.size());
-  const auto entry = [&](std::int64_t i) { return table[static_cast<std::size_t>(i % n)]; };
-  const int kh = tables.horizontal_colors;
-  const int kv = tables.vertical_colors;
-  const auto [width, height] = pack.mapping.size;
-  for (std::int64_t x = 0; x < width; ++x) first.push_back(entry(x));
-  for (std::int64_t k = 0; k < n + height; ++k) horizontal.push_back(entry(k) % kh);
-  if (corners) return;
-  for (std::int64_t y = 0; y < height; ++y) second.push_back(entry(2 * y));
-  for (std::int64_t k = 0; k < n + width; ++k) vertical.push_back(entry(k) % kv);
-}
-
 void FastSampler::State::take_mapping(const Pack& pack) {
-  FastTables& t = tables;
-  const Mapping& mapping = pack.mapping;
   if (pack.layout.kind == LayoutKind::rotated)
     throw Error(ErrorKind::usage, "layout",
                 "'rotated' is not one the fast sampler looks up; bake with --layout tile-index, de-bruijn or "
                 "array, or use the reference sampler");
-  const bool corners = pack.colors.corner > 0;
-  t.width = mapping.size.width;
-  t.height = mapping.size.height;
-  t.horizontal_colors = corners ? pack.colors.corner : pack.colors.horizontal;
-  t.vertical_colors = corners ? pack.colors.corner : pack.colors.vertical;
-
-  std::vector<std::int32_t> place_of_tile(pack.layout.cells.size());
-  for (const Cell& cell : pack.layout.cells)
-    place_of_tile[static_cast<std::size_t>(cell.tile)] = cell.column + 65536 * cell.row;
-  switch (mapping.kind) {
-  case MappingKind::index:
-    t.lookup = Lookup::index;
-    for (const int id : mapping.ids) places.push_back(place_of_tile[static_cast<std::size_t>(id)]);
-    break;
-  case MappingKind::permutation:
-    if (std::max({t.width, t.height, static_cast<std::int64_t>(mapping.table.size())}) > longest_table)
-      throw Error(
-          ErrorKind::usage, "mapping",
-          fmt::format("a permutation over {} x {} tiles is more than the fast sampler writes out; up to 2^20 "
-                      "tiles a side are, or take the mapping \"mix\"",
-                      t.width, t.height));
-    t.lookup = corners ? Lookup::permutation_corners : Lookup::permutation_edges;
-    take_permutation(pack, corners);
-    break;
-  case MappingKind::mix:
-    t.lookup = corners ? Lookup::mix_corners : Lookup::mix_edges;
-    t.horizontal_keys = mix_keys(mapping.seed, corners ? MixAxis::corner : MixAxis::horizontal);
-    t.vertical_keys = mix_keys(mapping.seed, MixAxis::vertical);
-    break;
-  case MappingKind::even:
-    t.lookup = Lookup::even_corners;
-    t.horizontal_keys = mix_keys(mapping.seed, MixAxis::corner);
-    pattern = mapping.table;
-    t.pattern = pattern.data();
-    break;
-  }
-  if (t.lookup != Lookup::index) places = place_of_tile;
-  t.places = places.data();
-  t.first = first.data();
-  t.second = second.data();
-  t.horizontal = horizontal.data();
-  t.vertical = vertical.data();
+  mapping = pack.mapping;
+  lookup.emplace(pack, mapping);
+  tables.lookup = &lookup->words();
+  tables.width = mapping.size.width;
+  tables.height = mapping.size.height;
 }
 
 FastSampler::FastSampler(const Pack& pack, int map, std::string_view target)
@@ -295,9 +235,9 @@ TexelStorage FastSampler::storage() const {
 }
 
 std::size_t FastSampler::bytes() const {
-  const std::size_t entries = state->places.size() + state->first.size() + state->second.size() +
-                              state->horizontal.size() + state->vertical.size() + state->pattern.size();
-  return state->texels.size() + entries * sizeof(std::int32_t);
+  const std::size_t entries = state->mapping.table.size() + state->mapping.ids.size();
+  const std::size_t by_tile = state->lookup ? state->lookup->bytes() : 0;
+  return state->texels.size() + entries * sizeof(std::int32_t) + by_tile;
 }
 
 void FastSampler::sample(const SampleBatch& batch, Filter filter, Weights weights,

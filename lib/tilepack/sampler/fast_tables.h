@@ -1,11 +1,16 @@
 #pragma once
 
-#include "tilepack/mapping/mix_hash.h"
 #include "tilepack/sampler/sample_batch.h"
 
 #include <cstdint>
 
 namespace tilepack {
+
+struct PackLookup;
+
+/// Of lookup/pack_lookup.h, said here for the kernels: place of the tile in cell (x, y) within the virtual
+/// texture, column + 65536 * row.
+std::uint32_t packed_place_of_cell(const PackLookup& lookup, std::uint32_t x, std::uint32_t y);
 
 /// Everything the kernels of FastSampler read, as plain pointers: they are compiled once for each instruction
 /// set, and nothing of the standard library may be compiled with them.
@@ -28,36 +33,11 @@ struct FastTables {
   bool alpha = false;                   // premultiplied: divide at the end
   int channels = 0;
 
-  // How a cell of the virtual texture becomes a place in the pack, column + 65536 * row.
-  enum class Lookup {
-    none,              // a plain texture: always place 0
-    index,             // places[y * width + x]
-    permutation_edges, // Wei04, Eq. 2, by tables
-    permutation_corners,
-    mix_edges,
-    mix_corners,
-    even_corners
-  };
-  Lookup lookup = Lookup::none;
+  // How a cell of the virtual texture becomes a place in the pack; null for a plain texture: always place 0.
+  const PackLookup* lookup = nullptr;
   std::int64_t width = 1; // of the virtual texture, in tiles
   std::int64_t height = 1;
-  const std::int32_t* places = nullptr; // of a cell (index) or of a tile (the others)
-  int horizontal_colors = 0;            // Kh; for corners K
-  int vertical_colors = 0;              // Kv; for corners K
-  // permutation: first[x] = P[x], second[y] = P[2y] (P[y'] is not needed for corners), and the colors
-  // horizontal[k] = P[k] mod Kh, vertical[k] = P[k] mod Kv, indices mod n and written out so far that a sum
-  // needs no mod.
-  const std::int32_t* first = nullptr;
-  const std::int32_t* second = nullptr;
-  const std::int32_t* horizontal = nullptr;
-  const std::int32_t* vertical = nullptr;
-  const int* pattern = nullptr; // even
-  MixKeys horizontal_keys;
-  MixKeys vertical_keys;
 };
-
-/// FastTables::Lookup for one cell within the virtual texture.
-std::int32_t place_of_cell(const FastTables& tables, std::int32_t x, std::int32_t y);
 
 /// The slow way to cell and fraction along one axis, for what the kernels don't handle: coordinates far out,
 /// NaN, and those beyond a side that is no power of two. In place: tile[i] becomes the cell, 0..side-1.

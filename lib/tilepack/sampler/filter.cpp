@@ -45,18 +45,4 @@ int nearest_texel(double fraction, int tile_side) {
   return std::min(static_cast<int>(fraction * tile_side), tile_side - 1);
 }
 
-double exact_log2(double x) {
-  // Squaring the mantissa doubles its logarithm: each time it passes 2, the next binary digit is 1.
-  int exponent = 0;
-  double mantissa = std::frexp(x, &exponent) * 2.0; // 1 <= mantissa < 2
-  double result = exponent - 1;
-  for (double digit = 0.5; digit > 0x1p-40 && mantissa != 1.0; digit *= 0.5) {
-    mantissa *= mantissa;
-    if (mantissa < 2.0) continue;
-    mantissa *= 0.5;
-    result += digit;
-  }
-  return result;
-}
-
 } // namespace tilepack

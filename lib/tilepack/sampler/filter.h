@@ -39,7 +39,4 @@ Taps bilinear_taps(double fraction, int tile_side);
 /// The texel that holds the place, 0..tile_side-1.
 int nearest_texel(double fraction, int tile_side);
 
-/// log2 of a finite x > 0, from exact steps only, so that its bits are the same on every machine.
-double exact_log2(double x);
-
 } // namespace tilepack

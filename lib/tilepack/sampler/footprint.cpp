@@ -1,6 +1,6 @@
 #include "tilepack/sampler/footprint.h"
 
-#include "tilepack/sampler/filter.h"
+#include "tilepack/numeric/exact_math.h"
 
 #include <algorithm>
 

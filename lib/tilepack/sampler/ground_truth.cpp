@@ -2,8 +2,8 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/layout/place_tiles.h"
-#include "tilepack/sampler/texel_sums.h"
 #include "tilepack/mip/mip_chain.h"
+#include "tilepack/tileset/value_space.h"
 
 #include <algorithm>
 #include <string>
@@ -32,9 +32,9 @@ TileSet tile_set_of(const Pack& pack) {
 
 GroundTruth::GroundTruth(const Pack& of_pack, int map_index, WrapMode at_border,
                          std::vector<std::vector<Image>> encoded_tiles)
-    : pack(&of_pack), border(at_border), tiles(std::move(encoded_tiles)) {
+    : pack(&of_pack), tables(of_pack), border(at_border), tiles(std::move(encoded_tiles)) {
   const PackedMap& map = map_of(of_pack, map_index);
-  alpha = map.role == Role::color && map.channels % 2 == 0;
+  alpha = value_space(map).has_alpha();
   for (auto& level : tiles)
     for (Image& tile : level) tile = to_linear(tile, map.encoding);
 }
@@ -68,16 +68,16 @@ std::span<const float> GroundTruth::texel(int level, std::int64_t x, std::int64_
   const Size side = images.front().size();
   const std::int64_t column = within(x, pack->mapping.size.width * side.width, border);
   const std::int64_t row = within(y, pack->mapping.size.height * side.height, border);
-  const int tile = tile_at(pack->mapping, pack->colors, column / side.width, row / side.height);
-  return images[static_cast<std::size_t>(tile)].texel(static_cast<int>(column % side.width),
-                                                      static_cast<int>(row % side.height));
+  const std::uint32_t tile = tile_of_cell(tables.words(), {static_cast<std::uint32_t>(column / side.width),
+                                                           static_cast<std::uint32_t>(row / side.height)});
+  return images[tile].texel(static_cast<int>(column % side.width), static_cast<int>(row % side.height));
 }
 
 void GroundTruth::sample(TileCoordinate x, TileCoordinate y, double level, Filter filter,
                          std::span<double> out) const {
   const TileCoordinate east = within(x, pack->mapping.size.width, border);
   const TileCoordinate south = within(y, pack->mapping.size.height, border);
-  TexelSums sums;
+  ValueSums sums;
   const auto add_level = [&](int number, double share) {
     const Size side = tiles[static_cast<std::size_t>(number)].front().size();
     const auto add = [&](int i, int j, double weight) { // from the cell's north-west texel
@@ -105,7 +105,7 @@ void GroundTruth::sample(TileCoordinate x, TileCoordinate y, const Footprint& fo
   const TileCoordinate east = within(x, pack->mapping.size.width, border);
   const TileCoordinate south = within(y, pack->mapping.size.height, border);
   const FootprintEllipse ellipse = ellipse_of(footprint, pack->tile_size);
-  TexelSums sums;
+  ValueSums sums;
   const auto add_level = [&](int number, double share) {
     const Size side = tiles[static_cast<std::size_t>(number)].front().size();
     const EllipseTexels covered(ellipse, number);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/lookup/lookup_tables.h"
 #include "tilepack/pack/pack.h"
 #include "tilepack/sampler/address.h"
 #include "tilepack/sampler/filter.h"
@@ -38,6 +39,7 @@ private:
   std::span<const float> texel(int level, std::int64_t x, std::int64_t y) const;
 
   const Pack* pack; // must outlive this
+  LookupTables tables;
   WrapMode border;
   std::vector<std::vector<Image>> tiles; // level → tile id, linear light
   bool alpha = false;

@@ -1,8 +1,8 @@
 #include "tilepack/sampler/pack_texels.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/numeric/wrap.h"
 #include "tilepack/mip/level_size.h"
+#include "tilepack/numeric/wrap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,14 +24,14 @@ int in_texels(double coordinate) {
 
 PackTexels::PackTexels(const Pack& of_pack, const std::vector<PackedMap>& maps, int map_index,
                        int first_level, int last_level)
-    : pack(&of_pack) {
+    : tables(of_pack) {
   const int count = static_cast<int>(maps.size());
   if (map_index < 0 || map_index >= count)
     throw Error(ErrorKind::usage, "map",
                 std::to_string(map_index) + " is not a map of the pack; it has 0.." +
                     std::to_string(count - 1));
   map = &maps[static_cast<std::size_t>(map_index)];
-  alpha = map->role == Role::color && map->channels % 2 == 0;
+  alpha = value_space(*map).has_alpha();
   decoded.resize(map->levels.size());
   if (map->encoding == Encoding::linear) return;
   const int last = std::min(last_level, levels() - 1);
@@ -44,12 +44,15 @@ PackTexels::PackTexels(const Pack& of_pack, const std::vector<PackedMap>& maps, 
 PackTexels::PackTexels(const Pack& of_pack, int map_index, int first_level, int last_level)
     : PackTexels(of_pack, of_pack.maps, map_index, first_level, last_level) {
   turned = of_pack.layout.kind == LayoutKind::rotated;
-  layered = of_pack.layout.kind == LayoutKind::array;
+  if (of_pack.layout.kind == LayoutKind::array) border = of_pack.layout.border;
   if (!turned) return;
   for (int level = 0; level < levels(); ++level) {
     std::vector<Placement>& of_tiles = placements.emplace_back();
-    for (int tile = 0; tile < static_cast<int>(of_pack.layout.cells.size()); ++tile)
-      of_tiles.push_back(placement(of_pack.layout, tile, of_pack.tile_size, level));
+    for (std::uint32_t tile = 0; tile < lookup().tiles; ++tile) {
+      const TexturePlace place = place_of_tile(lookup(), tile);
+      of_tiles.push_back(
+          placement(lookup().layout, static_cast<int>(place.column), static_cast<int>(place.row), level));
+    }
   }
 }
 
@@ -58,9 +61,9 @@ PackTexels PackTexels::of_corners(const Pack& of_pack, int map_index, int first_
 }
 
 PackTexels::Place PackTexels::place(std::int64_t cell_x, std::int64_t cell_y) const {
-  const int tile = tile_at(pack->mapping, pack->colors, cell_x, cell_y);
-  const Cell& cell = pack->layout.cells[static_cast<std::size_t>(tile)];
-  return {cell.column, cell.row, tile};
+  const std::uint32_t tile = tile_of_cell(lookup(), cell_at(lookup().lattice, cell_x, cell_y));
+  const TexturePlace place = place_of_tile(lookup(), tile);
+  return {static_cast<int>(place.column), static_cast<int>(place.row), static_cast<int>(tile)};
 }
 
 const Image& PackTexels::image(int level) const {
@@ -71,11 +74,11 @@ const Image& PackTexels::image(int level) const {
 std::span<const float> PackTexels::texel(int level, Place place, int i, int j) const {
   const Image& texture = image(level);
   const Size tile = tile_size(level);
-  if (layered) {
-    const int border = pack->layout.border >> level;
-    return texture.texel(std::clamp(i + border, 0, tile.width + 2 * border - 1),
-                         place.row * (tile.height + 2 * border) +
-                             std::clamp(j + border, 0, tile.height + 2 * border - 1));
+  if (border >= 0) {
+    const int beyond = border >> level;
+    return texture.texel(std::clamp(i + beyond, 0, tile.width + 2 * beyond - 1),
+                         place.row * (tile.height + 2 * beyond) +
+                             std::clamp(j + beyond, 0, tile.height + 2 * beyond - 1));
   }
   return texture.texel(wrapped(place.column * tile.width + i, texture.width()),
                        wrapped(place.row * tile.height + j, texture.height()));
@@ -136,7 +139,8 @@ int PackTexels::levels() const {
 }
 
 Size PackTexels::tile_size(int level) const {
-  return level_size(pack->tile_size, level);
+  const LayoutWords& words = lookup().layout;
+  return level_size({static_cast<int>(words.tile_width), static_cast<int>(words.tile_height)}, level);
 }
 
 } // namespace tilepack

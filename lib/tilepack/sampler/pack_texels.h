@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/lookup/lookup_tables.h"
 #include "tilepack/pack/pack.h"
 #include "tilepack/sampler/filter.h"
 
@@ -36,6 +37,8 @@ public:
   };
   Place place(std::int64_t cell_x, std::int64_t cell_y) const;
 
+  const PackLookup& lookup() const { return tables.words(); }
+
   /// Texel (i, j) counted from the north-west texel of the tile at `place`, any integers. Not for rotated
   /// layouts, whose tiles have no rows of texels.
   std::span<const float> texel(int level, Place place, int i, int j) const;
@@ -67,12 +70,12 @@ private:
   PackTexels(const Pack& pack, const std::vector<PackedMap>& maps, int map, int first_level, int last_level);
   const Image& image(int level) const;
 
-  const Pack* pack;
-  const PackedMap* map;
+  const PackedMap* map; // of the pack
+  LookupTables tables;
   std::vector<Image> decoded; ///< by level; empty where not asked for or where stored values are linear
   bool alpha = false;
   bool turned = false;                            ///< rotated layout
-  bool layered = false;                           ///< array layout
+  int border = -1;                                ///< array: its border at level 0; others -1
   std::vector<std::vector<Placement>> placements; ///< rotated: level → tile
 };
 

@@ -1,6 +1,6 @@
 #include "tilepack/sampler/reference_sampler.h"
 
-#include "tilepack/sampler/texel_sums.h"
+#include "tilepack/tileset/value_space.h"
 
 #include <cassert>
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace tilepack {
 namespace {
 
-void add_taps(TexelSums& sums, const PackTexels::Taps& taps, double weight, bool alpha) {
+void add_taps(ValueSums& sums, const PackTexels::Taps& taps, double weight, bool alpha) {
   for (int i = 0; i < taps.count; ++i) {
     const PackTexels::Tap& tap = taps.taps[static_cast<std::size_t>(i)];
     sums.add(tap.texel, weight * tap.weight, alpha);
@@ -47,20 +47,29 @@ int brought_back(int texel, std::int64_t cell, int side, std::int64_t tiles, Wra
   return texel + static_cast<int>(within(index, tiles * side, border) - index);
 }
 
-void add_ellipse(TexelSums& sums, const PackTexels& texels, PackTexels::Place place, const VirtualEdge& edge,
-                 const TilePoint& point, int level, const FootprintEllipse& ellipse, double weight) {
-  const Size tile = texels.tile_size(level);
-  const EllipseTexels covered(ellipse, level);
-  const double x = point.x * tile.width;
-  const double y = point.y * tile.height;
-  double total = 0;
-  covered.each(x, y, [&](int, int, double share) { total += share; });
-  covered.each(x, y, [&](int i, int j, double share) {
-    const int column = brought_back(i, point.cell_x, tile.width, edge.size.width, edge.border);
-    const int row = brought_back(j, point.cell_y, tile.height, edge.size.height, edge.border);
-    add_taps(sums, texels.texel_taps(level, place, column, row), weight * share / total, texels.has_alpha());
-  });
-}
+// What an ellipse round a point covers in one level.
+struct Covered {
+  const VirtualEdge& edge;
+  const TilePoint& point;
+  const FootprintEllipse& ellipse;
+  int level = 0;
+
+  // Adds the texels of the tile at `place`, weights adding up to `weight`.
+  void add_to(ValueSums& sums, const PackTexels& texels, PackTexels::Place place, double weight) const {
+    const Size tile = texels.tile_size(level);
+    const EllipseTexels covered(ellipse, level);
+    const double x = point.x * tile.width;
+    const double y = point.y * tile.height;
+    double total = 0;
+    covered.each(x, y, [&](int, int, double share) { total += share; });
+    covered.each(x, y, [&](int i, int j, double share) {
+      const int column = brought_back(i, point.cell_x, tile.width, edge.size.width, edge.border);
+      const int row = brought_back(j, point.cell_y, tile.height, edge.size.height, edge.border);
+      add_taps(sums, texels.texel_taps(level, place, column, row), weight * share / total,
+               texels.has_alpha());
+    });
+  }
+};
 
 // add(texels, place, share) for the pack and, near a corner, the corner pack.
 template <typename Add>
@@ -75,8 +84,8 @@ void with_corners(const PackTexels& texels, const CornerTexels* corners, const T
 template <typename AddLevel>
 void blend_levels(const PackTexels& texels, const LevelBlend& levels, std::span<double> out,
                   AddLevel&& add_level) {
-  assert(out.size() == static_cast<std::size_t>(texels.channels()) && out.size() <= TexelSums::max_channels);
-  TexelSums sums;
+  assert(out.size() == static_cast<std::size_t>(texels.channels()) && out.size() <= ValueSums::max_channels);
+  ValueSums sums;
   add_level(sums, levels.fine, 1.0 - levels.coarse_weight);
   if (levels.coarse_weight > 0.0) add_level(sums, levels.coarse, levels.coarse_weight);
   sums.resolve(out, texels.has_alpha());
@@ -84,9 +93,9 @@ void blend_levels(const PackTexels& texels, const LevelBlend& levels, std::span<
 
 } // namespace
 
-void sample_tile(const PackTexels& texels, const CornerTexels* corners, const VirtualEdge& edge,
-                 const TilePoint& point, const LevelBlend& levels, Filter filter, std::span<double> out) {
-  blend_levels(texels, levels, out, [&](TexelSums& sums, int level, double weight) {
+void TileReader::sample(const TilePoint& point, const LevelBlend& levels, Filter filter,
+                        std::span<double> out) const {
+  blend_levels(texels, levels, out, [&](ValueSums& sums, int level, double weight) {
     const TilePoint at =
         filter == Filter::nearest ? point : kept_inside(point, edge, texels.tile_size(level));
     with_corners(
@@ -96,13 +105,13 @@ void sample_tile(const PackTexels& texels, const CornerTexels* corners, const Vi
   });
 }
 
-void sample_tile(const PackTexels& texels, const CornerTexels* corners, const VirtualEdge& edge,
-                 const TilePoint& point, const LevelBlend& levels, const FootprintEllipse& ellipse,
-                 std::span<double> out) {
-  blend_levels(texels, levels, out, [&](TexelSums& sums, int level, double weight) {
+void TileReader::sample(const TilePoint& point, const LevelBlend& levels, const FootprintEllipse& ellipse,
+                        std::span<double> out) const {
+  blend_levels(texels, levels, out, [&](ValueSums& sums, int level, double weight) {
+    const Covered covered{edge, point, ellipse, level};
     with_corners(texels, corners, point, level,
                  [&](const PackTexels& from, PackTexels::Place place, double share) {
-                   add_ellipse(sums, from, place, edge, point, level, ellipse, weight * share);
+                   covered.add_to(sums, from, place, weight * share);
                  });
   });
 }
@@ -120,15 +129,14 @@ TilePoint ReferenceSampler::point_at(TileCoordinate x, TileCoordinate y) const {
 
 void ReferenceSampler::sample(TileCoordinate x, TileCoordinate y, double level, Filter filter,
                               std::span<double> out) const {
-  sample_tile(texels, corners ? &*corners : nullptr, edge, point_at(x, y),
-              level_blend(level, texels.levels(), filter), filter, out);
+  reader().sample(point_at(x, y), level_blend(level, texels.levels(), filter), filter, out);
 }
 
 void ReferenceSampler::sample(TileCoordinate x, TileCoordinate y, const Footprint& footprint,
                               std::span<double> out) const {
   const FootprintEllipse ellipse = ellipse_of(footprint, texels.tile_size(0));
-  sample_tile(texels, corners ? &*corners : nullptr, edge, point_at(x, y),
-              level_blend(level_of(ellipse), texels.levels(), Filter::trilinear), ellipse, out);
+  reader().sample(point_at(x, y), level_blend(level_of(ellipse), texels.levels(), Filter::trilinear), ellipse,
+                  out);
 }
 
 } // namespace tilepack

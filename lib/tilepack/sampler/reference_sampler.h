@@ -28,6 +28,19 @@ struct TilePoint {
   double y = 0;
 };
 
+/// Filters at points whose tiles have been found: what ReferenceSampler does after that. A view of texels that
+/// others own.
+struct TileReader {
+  const PackTexels& texels;
+  const CornerTexels* corners = nullptr; ///< null: none
+  VirtualEdge edge;
+
+  /// Linear values, texels.channels() of them. As ReferenceSampler::sample.
+  void sample(const TilePoint& point, const LevelBlend& levels, Filter filter, std::span<double> out) const;
+  void sample(const TilePoint& point, const LevelBlend& levels, const FootprintEllipse& ellipse,
+              std::span<double> out) const;
+};
+
 /// Looks a pack up in double precision along one obvious path: slow, and what everything fast is held
 /// against.
 ///
@@ -55,6 +68,7 @@ public:
                    WrapMode border = WrapMode::wrap);
 
   int channels() const { return texels.channels(); }
+  int levels() const { return texels.levels(); }
 
   /// The linear value at (x, y). `level` 0 is the finest. `out` has channels() entries.
   void sample(TileCoordinate x, TileCoordinate y, double level, Filter filter, std::span<double> out) const;
@@ -65,17 +79,11 @@ public:
 
 private:
   TilePoint point_at(TileCoordinate x, TileCoordinate y) const;
+  TileReader reader() const { return {texels, corners ? &*corners : nullptr, edge}; }
 
   PackTexels texels;
   std::optional<CornerTexels> corners;
   VirtualEdge edge;
 };
-
-/// The same lookups from a point. `corners` may be null.
-void sample_tile(const PackTexels& texels, const CornerTexels* corners, const VirtualEdge& edge,
-                 const TilePoint& point, const LevelBlend& levels, Filter filter, std::span<double> out);
-void sample_tile(const PackTexels& texels, const CornerTexels* corners, const VirtualEdge& edge,
-                 const TilePoint& point, const LevelBlend& levels, const FootprintEllipse& ellipse,
-                 std::span<double> out);
 
 } // namespace tilepack

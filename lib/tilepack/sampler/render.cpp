@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/layout/place_tiles.h"
+#include "tilepack/numeric/exact_math.h"
 #include "tilepack/sampler/reference_sampler.h"
 
 #include <tbb/parallel_for.h>
@@ -51,14 +52,6 @@ LevelBlend levels_for(const View& view, int stored_levels, const FootprintEllips
   return level_blend(view.level - exact_log2(view.scale), stored_levels, view.filter);
 }
 
-void renormalise(std::span<double> normal) {
-  double square = 0;
-  for (int c = 0; c < 3; ++c) square += (2 * normal[c] - 1) * (2 * normal[c] - 1);
-  if (!(square > 0)) return;
-  const double length = std::sqrt(square);
-  for (int c = 0; c < 3; ++c) normal[c] = 0.5 + 0.5 * ((2 * normal[c] - 1) / length);
-}
-
 } // namespace
 
 Size output_size(const View& view) {
@@ -77,7 +70,7 @@ Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, cons
     : pack(&of_pack), map(&map_of(of_pack, map_index, of_view.level)), view(of_view), target(of_target),
       picture(output_size(of_view)), pixel(covered_by_pixel(of_view, of_pack.tile_size)),
       levels(levels_for(of_view, static_cast<int>(map->levels.size()), pixel)),
-      texels(of_pack, map_index, levels.fine, levels.coarse) {
+      texels(of_pack, map_index, levels.fine, levels.coarse), edge{of_pack.mapping.size, of_view.border} {
   if (copies_texels()) {
     Image level = map->levels[static_cast<std::size_t>(view.level)];
     if (target.encoding != map->encoding)
@@ -106,15 +99,12 @@ Image Renderer::rows(int first, int count) const {
 
 void Renderer::render_row(int row, std::span<float> out) const {
   const Size tile = texels.tile_size(view.level);
-  const VirtualEdge edge{pack->mapping.size, view.border};
   const TileCoordinate y =
       within(from_texels(view.rect.y, (row + 0.5) / view.scale, tile.height), edge.size.height, view.border);
   const auto channel_count = static_cast<std::size_t>(channels());
-  // Channels that carry light: as in encoding.h, the last of 2 or 4 does not.
-  const std::size_t encoded =
-      target.encoding == Encoding::srgb ? channel_count - (channel_count % 2 == 0 ? 1 : 0) : 0;
   const bool renormal =
-      map->role == Role::normal && channel_count >= 3 && (view.elliptical || view.filter != Filter::nearest);
+      value_space(*map).has_vectors() && (view.elliptical || view.filter != Filter::nearest);
+  const TileReader reader{texels, corners ? &*corners : nullptr, edge};
   std::array<double, 4> buffer{};
   const std::span<double> value(buffer.data(), channel_count);
 
@@ -126,13 +116,11 @@ void Renderer::render_row(int row, std::span<float> out) const {
       point = {x.tile, y.tile, texels.place(x.tile, y.tile), 0, y.fraction};
     point.x = x.fraction;
     if (view.elliptical)
-      sample_tile(texels, corners ? &*corners : nullptr, edge, point, levels, pixel, value);
+      reader.sample(point, levels, pixel, value);
     else
-      sample_tile(texels, corners ? &*corners : nullptr, edge, point, levels, view.filter, value);
+      reader.sample(point, levels, view.filter, value);
     if (renormal) renormalise(value);
-    for (std::size_t c = 0; c < encoded; ++c) value[c] = linear_to_srgb(value[c]);
-    for (std::size_t c = 0; c < channel_count; ++c)
-      out[i * channel_count + c] = quantised(static_cast<float>(value[c]), target.depth);
+    store_pixel(value, target, out.subspan(i * channel_count, channel_count));
   }
 }
 

@@ -4,7 +4,8 @@
 #include "tilepack/sampler/corner_blend.h"
 #include "tilepack/sampler/filter.h"
 #include "tilepack/sampler/footprint.h"
-#include "tilepack/sampler/pack_texels.h"
+#include "tilepack/sampler/reference_sampler.h"
+#include "tilepack/sampler/render_target.h"
 #include "tilepack/sampler/virtual_texture.h"
 
 #include <optional>
@@ -21,12 +22,6 @@ struct View {
   double corner_width = default_corner_width; ///< see corner_weight; 0 leaves a corner pack aside
   WrapMode border = WrapMode::wrap;           ///< of the virtual texture
   bool elliptical = false; ///< instead of `filter`, the mean over what each pixel covers (footprint.h)
-};
-
-/// How the rendered values are to be stored.
-struct RenderTarget {
-  Encoding encoding = Encoding::srgb;
-  Depth depth = Depth::u8;
 };
 
 /// Each side of the window times the scale, rounded, at least 1. Throws Error (usage) if a side of the window
@@ -61,10 +56,11 @@ private:
   View view;
   RenderTarget target;
   Size picture;
-  std::optional<CornerTexels> corners;
   FootprintEllipse pixel; ///< what one covers, wherever it lies
   LevelBlend levels;
   PackTexels texels;
+  std::optional<CornerTexels> corners;
+  VirtualEdge edge;
   std::vector<Image> stored;           ///< at scale 1: the tiles of the level as the target wants them, by id
   std::vector<TileCoordinate> columns; ///< elsewhere: where the pixels of a row lie
 };

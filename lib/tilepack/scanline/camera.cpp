@@ -1,6 +1,7 @@
 #include "tilepack/scanline/camera.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/numeric/exact_math.h"
 
 #include <fmt/format.h>
 
@@ -14,20 +15,6 @@ namespace {
 
 constexpr double farthest = 1e9;
 constexpr int largest_side = 65536;
-
-// Sine and cosine by their sums: the C library's may differ in the last bit from processor to processor, and
-// pictures must not. Past 45° the angle to 90° is used, where the cosine's sum would lose its leading digits.
-double tangent_of_half(double degrees) {
-  constexpr double right_angle = 1.57079632679489661923;
-  const bool steep = degrees > 90;
-  const double x = (steep ? 180 - degrees : degrees) / 180 * right_angle;
-  double sine = 0, cosine = 0, term = 1;
-  for (int k = 0; k < 24; ++k) {
-    (k % 2 == 0 ? cosine : sine) += k % 4 < 2 ? term : -term;
-    term *= x / (k + 1);
-  }
-  return steep ? cosine / sine : sine / cosine;
-}
 
 [[noreturn]] void refuse(const std::string& message) {
   throw Error(ErrorKind::usage, "--camera", message);
@@ -104,7 +91,7 @@ Projection::Projection(const Camera& camera, Size picture) {
   size = picture;
   eye = camera.eye;
   near = camera.near;
-  pixels = size.height / (2 * tangent_of_half(camera.fov));
+  pixels = size.height / (2 * exact_tangent_of_half(camera.fov));
   across = (1 / pixels) * right;
   down = (-1 / pixels) * up;
   corner = forward - (0.5 * size.width) * across - (0.5 * size.height) * down;

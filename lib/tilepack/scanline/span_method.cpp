@@ -2,7 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/error/nearest_name.h"
-#include "tilepack/sampler/filter.h"
+#include "tilepack/numeric/exact_math.h"
 #include "tilepack/scanline/span_constants.h"
 
 #include <algorithm>

@@ -18,12 +18,12 @@ constexpr int band_rows = scanlines_side_by_side;
 
 } // namespace
 
-ViewRenderer::ViewRenderer(const Pack& pack, int map, const Scene& of_scene, const Camera& camera,
-                           Size picture, const ViewOptions& of_options, const RenderTarget& target)
-    : options(of_options), scene(of_scene, Projection(camera, picture)),
-      texture(pack, map, target, of_options.filter, of_options.border) {
+ViewRenderer::ViewRenderer(const Texture& of_texture, const Scene& of_scene, const Camera& camera,
+                           Size picture, const ViewOptions& of_options, const RenderTarget& of_target)
+    : options(of_options), scene(of_scene, Projection(camera, picture)), texture(&of_texture),
+      target(of_target) {
   check_reseed(options.stepping.options);
-  const auto count = static_cast<std::size_t>(texture.channels());
+  const auto count = static_cast<std::size_t>(texture->channels());
   if (options.background.empty()) options.background.assign(count, 0.0f);
   const bool finite = std::all_of(options.background.begin(), options.background.end(),
                                   [](float value) { return std::isfinite(value); });
@@ -44,7 +44,7 @@ Image ViewRenderer::rows(int first, int count) const {
     const int top = band * band_rows;
     const int rows = std::min(band_rows, size().height - top);
     const ViewPixels pixels = view_pixels(scene.spans(top, rows), size().width, top, rows, options.stepping);
-    const Image shaded = texture.shade(pixels, options.background);
+    const Image shaded = shade(*texture, pixels, target, options.background);
     for (int y = std::max(top, first); y < std::min(top + rows, first + count); ++y) {
       std::copy_n(shaded.row(y - top).begin(), shaded.row(0).size(), picture.row(y - first).begin());
     }

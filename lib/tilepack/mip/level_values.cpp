@@ -1,7 +1,8 @@
-#include "tilepack/mip/value_space.h"
+#include "tilepack/mip/level_values.h"
 
 #include "tilepack/image/encoding.h"
 #include "tilepack/mip/srgb_tables.h"
+#include "tilepack/tileset/value_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +14,6 @@ namespace {
 
 std::size_t channels_of(const TileMap& map) {
   return static_cast<std::size_t>(map.tiles.front().channels());
-}
-
-bool holds_vectors(const TileMap& map) {
-  return map.role == Role::normal && channels_of(map) >= 3;
 }
 
 void make_unit(float* n) {
@@ -48,12 +45,12 @@ void decode(std::span<const float> from, const TileMap& map, std::span<float> to
   const std::size_t channels = channels_of(map);
   if (map.role == Role::normal) {
     for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i] * 2.0f - 1.0f;
-    if (holds_vectors(map)) make_unit(to, channels);
+    if (value_space(map).has_vectors()) make_unit(to, channels);
     return;
   }
   copy(from, to);
   if (!is_srgb(map)) return;
-  const std::size_t colors = channels % 2 == 0 ? channels - 1 : channels; // alpha is linear
+  const auto colors = static_cast<std::size_t>(color_channels(static_cast<int>(channels)));
   for (std::size_t i = 0; i < to.size(); i += channels)
     for (std::size_t c = 0; c < colors; ++c)
       to[i + c] = static_cast<float>(srgb_to_linear(static_cast<double>(to[i + c])));
@@ -63,7 +60,7 @@ void encode(std::span<const float> from, const TileMap& map, std::span<float> to
   if (is_srgb(map)) return encode_srgb(from, static_cast<int>(channels_of(map)), to);
   copy(from, to);
   if (map.role != Role::normal) return;
-  if (holds_vectors(map)) make_unit(to, channels_of(map));
+  if (value_space(map).has_vectors()) make_unit(to, channels_of(map));
   for (float& v : to) v = v * 0.5f + 0.5f;
 }
 
@@ -82,8 +79,7 @@ void halve_decoded(std::span<const float> north, std::span<const float> south, c
 }
 
 Weighting weighting_of(const TileMap& map) {
-  const bool alpha = map.role == Role::color && !map.tiles.empty() && map.tiles.front().channels() % 2 == 0;
-  return alpha ? Weighting::by_alpha : Weighting::plain;
+  return !map.tiles.empty() && value_space(map).has_alpha() ? Weighting::by_alpha : Weighting::plain;
 }
 
 } // namespace tilepack
