@@ -13,6 +13,7 @@
 
 using namespace tilepack;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -200,8 +201,9 @@ TEST_CASE("errors are blamed on where the field was set, early and late") {
   const Fault here = fault([&] { run(with(job, "border", "2")); });
   CHECK(here.kind == ErrorKind::usage);
   CHECK(here.option == "--border: is for --layout array");
-  const Fault there = fault([&] { run(with(job, "layout", "tile-index", "list.json:7 \"layout\"")); });
-  CHECK_THAT(there.plain, Contains("list.json:7 \"layout\": ") || Contains("layout"));
+  const BakeJob edge = with(job, "coloring", "edge");
+  CHECK_THAT(fault([&] { run(with(edge, "layout", "de-bruijn", "list.json:7 \"layout\"")); }).plain,
+             StartsWith("list.json:7 \"layout\": 'de-bruijn' is for corner coloring"));
 
   const std::string preset = at.path("late.json");
   write_text_file(
@@ -231,8 +233,17 @@ TEST_CASE("what a manifest asks for is blamed on its place there") {
   job.preset = "waal";
   CHECK_THAT(fault([&] { run(job); }).plain, Contains("list.json:12 \"preset\": there is no preset 'waal'"));
   job.preset.clear();
-  CHECK_THAT(fault([&] { run(with(job, "layout", "tile-index", "list.json:14 \"layout\"")); }).plain,
-             !Contains("list.json:12"));
+  // A setting's own place is nearer than the job's; what nobody set is the job's.
+  BakeJob edge = with(with(job, "coloring", "edge", "list.json:13 \"coloring\""), "layout", "de-bruijn",
+                      "list.json:14 \"layout\"");
+  CHECK_THAT(fault([&] { run(edge); }).plain, StartsWith("list.json:14 \"layout\": "));
+  BakeJob corner = with(job, "mapping", "permutation");
+  corner.settings = {{"colors", "8x8", "list.json:15 \"colors\""},
+                     {"mips", "box", "list.json:16 \"mips\""},
+                     {"set", "sequential", "list.json:17 \"set\""},
+                     {"layout", "array", "list.json:18"},
+                     {"mapping", "mix", "list.json:19 \"mapping\""}};
+  CHECK_THAT(fault([&] { run(corner); }).plain, StartsWith("list.json:19 \"mapping\": 'mix' needs"));
 }
 
 TEST_CASE("outputs that would replace inputs are refused before anything is read") {

@@ -19,7 +19,7 @@ class Samples(CommandCase):
         self.bake_refused("missing.png", CANNOT_READ, ["missing.png", "No such file"])
         self.bake_refused(self.write("empty.png", ""), CANNOT_READ, ["empty.png", "is empty (0 bytes)"])
         self.bake_refused(self.write("text.png", "this is no image\n" * 100), CANNOT_READ,
-                          ["text.png", "is no PNG, JPEG, TIFF or EXR"])
+                          ["text.png", "is no PNG, JPEG, TIFF, EXR"])
         self.bake_refused(self.write("no_suffix", b"\0" * 1000), CANNOT_READ, ["no_suffix", "by its first bytes"])
 
     def test_truncated_files(self):

@@ -213,6 +213,9 @@ TEST_CASE("parts and windows that are passed over are said") {
 
   write_foreign(file, "openexr", image, TypeDesc::HALF);
   CHECK(read_image(file).notes.empty());
+
+  std::ofstream(file, std::ios::binary) << tiny::chroma_exr();
+  CHECK_THAT(refusal(file, ErrorKind::invalid_content), Contains("luminance and chroma"));
 }
 
 TEST_CASE("white that is 0 in a TIFF is white") {

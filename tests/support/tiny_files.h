@@ -98,6 +98,26 @@ inline std::string iccp(double exponent) {
   return png_chunk("iCCP", std::string("tiny") + std::string(2, '\0') + deflated(profile(exponent)));
 }
 
+/// An EXR of luminance and chroma, the latter at half the resolution. Its rows are not there.
+inline std::string chroma_exr() {
+  const auto attribute = [](const std::string& name, const std::string& type, const std::string& data) {
+    return name + '\0' + type + '\0' + little(static_cast<std::uint32_t>(data.size()), 4) + data;
+  };
+  const auto channel = [](const std::string& name, std::uint32_t step) {
+    return name + '\0' + little(1, 4) + little(0, 4) + little(step, 4) + little(step, 4);
+  };
+  const std::string window = little(0, 4) + little(0, 4) + little(7, 4) + little(7, 4);
+  const std::string one("\0\0\x80\x3F", 4);
+  return little(20000630, 4) + little(2, 4) +
+         attribute("channels", "chlist", channel("BY", 2) + channel("RY", 2) + channel("Y", 1) + '\0') +
+         attribute("compression", "compression", std::string(1, '\0')) +
+         attribute("dataWindow", "box2i", window) + attribute("displayWindow", "box2i", window) +
+         attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+         attribute("pixelAspectRatio", "float", one) +
+         attribute("screenWindowCenter", "v2f", std::string(8, '\0')) +
+         attribute("screenWindowWidth", "float", one) + std::string(1 + 8 * 8, '\0');
+}
+
 /// A grey TIFF in the least byte order, uncompressed, with `tags` beside the needed ones (all SHORT).
 inline std::string tiff(std::uint32_t width, std::uint32_t height, std::uint32_t samples, std::uint32_t bits,
                         const std::string& texels,

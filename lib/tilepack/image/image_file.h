@@ -48,9 +48,9 @@ struct ImageFile {
   Image image; ///< 1 to 4 channels, values as stored (see Image), upright, straight alpha
   Encoding encoding = Encoding::srgb; ///< asked for, else as in ImageHeader
   Depth depth = Depth::u8;            ///< as in ImageHeader
-  std::vector<std::string> notes =
-      {}; ///< a sentence each: what in the file was passed over or is in doubt, and
-          ///< what to do; fields are marked (error/field.h), the file is not named
+  /// A sentence each: what in the file was passed over or is in doubt, and what to do. Fields are marked
+  /// (error/field.h), and the file is not named: "FILE: holds several images …".
+  std::vector<std::string> notes = {};
 };
 
 /// Reads the header alone, so that a caller can refuse a size before memory is taken for it. Whether the rest
@@ -76,10 +76,10 @@ ImageFile read_image(const std::filesystem::path& file, const ReadOptions& optio
 /// The same with nothing asked for but, perhaps, the encoding.
 ImageFile read_image(const std::filesystem::path& file, std::optional<Encoding> asked = {});
 
-/// Writes the whole image, rounded to the depth of `format`. The bytes depend on the arguments alone: no date, no host
-/// name, and for any number of threads. `file` must end in the name of the container, and the
-/// container must hold the depth, else Error (usage). The file
-/// appears complete or not at all: it is written under a temporary name beside `file` and renamed.
+/// Writes the whole image, rounded to the depth of `format`. The bytes depend on the arguments alone: no date,
+/// no host name, and for any number of threads. `file` must end in the name of the container, and the container
+/// must hold the depth, else Error (usage). The file appears complete or not at all: it is written under a
+/// temporary name beside `file` and renamed.
 ///
 /// `srgb` marks a PNG as such. A `linear` PNG carries no mark, since browsers and importers would "correct"
 /// normal maps and data by it: who reads it back must ask for linear. An EXR is linear by definition.

@@ -41,6 +41,11 @@ constexpr int most_file_channels = 1024;
 
 Error unreadable(const std::string& name, const std::string& reason) {
   std::string line = reason.substr(0, reason.find('\n'));
+  if (line.find("ubsampled channels") != std::string::npos) // OpenImageIO's word for it
+    return Error(
+        ErrorKind::invalid_content, name,
+        "stores channels at a lower resolution than others (luminance and chroma, as a rule); convert "
+        "it to R, G and B");
   return Error(ErrorKind::cannot_read, name,
                fmt::format("is truncated or damaged ({}); copy or export it again",
                            line.empty() ? "the decoder gave up" : line));

@@ -166,8 +166,10 @@ void append_files(std::vector<std::string>& list, const std::vector<MapFiles>& m
 
 std::vector<PackedMap> without_levels(const std::vector<PackedMap>& maps) {
   std::vector<PackedMap> bare;
-  for (const PackedMap& m : maps)
-    bare.push_back({m.name, m.role, m.encoding, m.depth, m.channels, {}, m.round_trips, m.container});
+  for (const PackedMap& m : maps) {
+    PackedMap& map = bare.emplace_back(m, m.channels, std::vector<Image>{}, m.round_trips);
+    map.container = m.container;
+  }
   return bare;
 }
 
