@@ -1,5 +1,6 @@
 #include "bake_report.h"
 
+#include "tilepack/error/field.h"
 #include "tilepack/report/pack_summary.h"
 
 #include <fmt/format.h>
@@ -54,7 +55,8 @@ std::string verdict_text(const BakeFacts& facts) {
   std::string text =
       fmt::format("  {:<9} {}: {}\n", "quality", name_of(verdict.grade), figures_text(facts.report.figures));
   for (const BakeRemark& remark : verdict.remarks)
-    if (remark.grade != Grade::good) text += fmt::format("  {:<9} {}\n", name_of(remark.grade), remark.text);
+    if (remark.grade != Grade::good)
+      text += fmt::format("  {:<9} {}\n", name_of(remark.grade), spelled(remark.text, FieldSpelling::option));
   return text;
 }
 

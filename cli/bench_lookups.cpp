@@ -4,6 +4,7 @@
 #include "output_file.h"
 
 #include "tilepack/bench/bench.h"
+#include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/report/bench_page.h"
 
@@ -42,15 +43,6 @@ public:
   fs::path path;
 };
 
-int map_number(const Pack& pack, const std::string& name) {
-  std::string names;
-  for (std::size_t i = 0; i < pack.maps.size(); ++i) {
-    if (name.empty() || pack.maps[i].name == name) return static_cast<int>(i);
-    names += (i == 0 ? "" : ", ") + pack.maps[i].name;
-  }
-  throw Error(ErrorKind::usage, "--map", fmt::format("the pack has no map '{}'; it has {}", name, names));
-}
-
 } // namespace
 
 int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
@@ -58,7 +50,7 @@ int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
   check_page_name({"--report", a.report});
   if (!a.report.empty()) check_writable(a.report); // before minutes are spent
   const Pack pack = read_pack(a.pack);
-  const int map = map_number(pack, a.map);
+  const int map = map_called(pack, a.map);
   BenchOptions options;
   options.rounds = a.quick ? 1 : a.rounds;
   options.large = !a.quick;

@@ -6,6 +6,7 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/mapping/index_json.h"
 #include "tilepack/pack/pack_folder_read.h"
+#include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/report/mapping_picture.h"
 #include "tilepack/report/pack_picture.h"
@@ -38,20 +39,6 @@ struct InspectArguments {
   bool bare = false;
   bool mapping = false;
 };
-
-int map_named(const Pack& pack, const std::string& name) {
-  std::vector<std::string> known;
-  for (std::size_t m = 0; m < pack.maps.size(); ++m) {
-    if (name.empty() || pack.maps[m].name == name) return static_cast<int>(m);
-    known.push_back(pack.maps[m].name);
-  }
-  const std::string nearest = nearest_name(name, known);
-  std::string list;
-  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
-  throw Error(ErrorKind::usage, "--map",
-              fmt::format("the pack has no map '{}'{}; it has {}", name,
-                          nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest), list));
-}
 
 void check_outputs_of(const InspectArguments& a) {
   check_outputs(std::vector<OutputFile>{{"--picture", a.picture},
@@ -91,7 +78,7 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
   summary.file_bytes = bytes_of_files(folder_of(json), files);
   const Pack pack = read_pack(arguments.pack);
   PackPictureOptions options;
-  options.map = map_named(pack, arguments.map);
+  options.map = map_called(pack, arguments.map);
   if (arguments.level && *arguments.level >= pack.tile_levels)
     throw Error(ErrorKind::usage, "--level",
                 fmt::format("{}; the pack has levels 0 to {}", *arguments.level, pack.tile_levels - 1));

@@ -4,6 +4,7 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/json/json_value.h"
 #include "tilepack/measure/layout_losses.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -103,17 +104,23 @@ int run_layouts(const LayoutsArguments& arguments, Console& console) {
 
 Action declare_layouts(Options& options) {
   auto arguments = std::make_shared<LayoutsArguments>();
-  options.option("--tiles", arguments->tiles, "advice for this many tiles, 1 to 65535")
+  options
+      .option("--tiles", arguments->tiles,
+              fmt::format("advice for this many tiles, 1 to {}", max_rotated_tiles - 1))
       .check(whole_number(1, max_rotated_tiles - 1))
       .value("N");
-  options.option("--up-to", arguments->up_to, "largest tile count of the table, 1 to 4096")
-      .check(whole_number(1, 4096))
+  options
+      .option("--up-to", arguments->up_to,
+              fmt::format("largest tile count of the table, 1 to {}", limits::most_tiles))
+      .check(whole_number(1, limits::most_tiles))
       .value("N");
-  options.option("--tile-size", arguments->tile_side, "side of a tile in texels, 1 to 4096")
-      .check(whole_number(1, 4096))
+  options
+      .option("--tile-size", arguments->tile_side,
+              fmt::format("side of a tile in texels, 1 to {}", limits::largest_tile_side))
+      .check(whole_number(1, limits::largest_tile_side))
       .value("N");
   options.option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side")
-      .check(whole_number(0, 4096, ", and at most the tile's side"))
+      .check(whole_number(0, limits::largest_gutter, ", and at most the tile's side"))
       .value("N");
   options
       .option("--sample", arguments->sample,

@@ -36,12 +36,6 @@ struct PackArguments {
   std::map<std::string, std::string> fields;
 };
 
-Role role_of(const std::string& name) {
-  for (const Role role : {Role::color, Role::normal, Role::roughness, Role::height})
-    if (name == name_of(role)) return role;
-  return Role::data;
-}
-
 // Unless told otherwise, the layout and mapping that go with the colors.
 BakeOptions options_from(const PackArguments& arguments, const TileColors& tiles) {
   std::vector<BakeSetting> settings;
@@ -77,7 +71,7 @@ int run_pack(const PackArguments& arguments, Console& console) {
       parsed_color_list(read_text_file(arguments.colors, "the list of colors"), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);
   std::vector<HandDrawnTile> drawings;
-  const Role role = role_of(arguments.role);
+  const Role role = enum_called<Role>(arguments.role, "--role", "role");
   for (const std::string& file : arguments.tiles)
     drawings.push_back(
         {file, read_image(file, role == Role::color ? std::nullopt : std::optional(Encoding::linear))});
@@ -109,7 +103,7 @@ Action declare_pack(Options& options) {
       .required();
   options.option("--name", arguments->name, "of the map in the pack").value("NAME");
   options.option("--role", arguments->role, "what the values mean")
-      .one_of("color|normal|roughness|height|data")
+      .one_of(alternatives_of<Role>())
       .value("ROLE");
   options
       .option("--tolerance", arguments->tolerance,

@@ -6,6 +6,7 @@
 
 #include "tilepack/image/image_file.h"
 #include "tilepack/mip/level_size.h"
+#include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/stored_format_for.h"
 #include "tilepack/sampler/pack_texture.h"
@@ -43,28 +44,14 @@ struct RenderArguments {
   CameraArguments view;
 };
 
-int map_number(const Pack& pack, const std::string& name) {
-  if (name.empty()) return 0;
-  std::string names;
-  for (std::size_t i = 0; i < pack.maps.size(); ++i) {
-    if (pack.maps[i].name == name) return static_cast<int>(i);
-    names += (i == 0 ? "" : ", ") + pack.maps[i].name;
-  }
-  throw Error(ErrorKind::usage, "--map", fmt::format("the pack has no map '{}'; it has {}", name, names));
-}
-
 constexpr const char* elliptical = "elliptical"; // no Filter: it takes a footprint in place of a level
 
 Filter filter_of(const std::string& name) {
   if (name == elliptical) return Filter::trilinear;
-  if (const auto filter = filter_named(name)) return *filter;
-  throw Error(ErrorKind::usage, "--filter",
-              fmt::format("'{}' is no filter; there are nearest, bilinear, trilinear and elliptical", name));
-}
-
-WrapMode border_of(const std::string& name) {
-  if (const auto border = border_named(name)) return *border;
-  throw Error(ErrorKind::usage, "--border", fmt::format("'{}'; it is wrap, clamp or mirror", name));
+  if (const auto filter = enum_named<Filter>(name)) return *filter;
+  std::vector<std::string> known = names_of<Filter>();
+  known.emplace_back(elliptical);
+  refuse_name(name, "--filter", "filter", known);
 }
 
 // X,Y,W,H, whole numbers, as far as a window can reach.
@@ -117,13 +104,13 @@ RenderTarget target_for(const std::string& file, const PackedMap& map, const std
 
 int run_render(const RenderArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
-  const WrapMode border = border_of(arguments.border);
+  const WrapMode border = enum_called<WrapMode>(arguments.border, "--border", "border");
   std::vector<std::string> inputs = files_of_pack(arguments.pack);
   if (!arguments.view.mesh.empty()) inputs.push_back(arguments.view.mesh);
   check_outputs(std::vector<OutputFile>{{"--output", arguments.output}}, inputs);
   if (arguments.view.camera) {
     const Pack pack = read_pack(arguments.pack);
-    const int map = map_number(pack, arguments.map);
+    const int map = map_called(pack, arguments.map);
     const RenderTarget target =
         target_for(arguments.output, pack.maps[static_cast<std::size_t>(map)], arguments.encoding);
     const PackTexture texture(pack, map, view_filter_of(arguments.filter), border);
@@ -134,7 +121,7 @@ int run_render(const RenderArguments& arguments, Console& console) {
   if (arguments.rect) rect = parsed_rect(*arguments.rect);
 
   const Pack pack = read_pack(arguments.pack);
-  const int map = map_number(pack, arguments.map);
+  const int map = map_called(pack, arguments.map);
   const auto& packed = pack.maps[static_cast<std::size_t>(map)];
   const int levels = static_cast<int>(packed.levels.size());
   if (arguments.level < 0 || arguments.level >= levels)

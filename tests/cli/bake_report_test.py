@@ -29,6 +29,11 @@ class BakeReport(CommandCase):
                 self.assertEqual(stored, {name: summary["synthesis"][name] for name in stored})
                 self.assertIn(summary["verdict"]["grade"], ("good", "fair", "poor"))
                 self.assertTrue(all(r["text"].endswith(".") for r in summary["verdict"]["remarks"]))
+                for remark in summary["verdict"]["remarks"]:
+                    self.assertRegex(remark["code"], r"^[a-z-]+$")
+                    cure = remark.get("cure")
+                    if cure:  # the text names it as one would type it
+                        self.assertIn(f"--{cure['field']} {cure['value']}".strip(), remark["text"])
                 text = self.bake("--coloring", coloring).stdout
                 self.assertRegex(text, r"quality +" + summary["verdict"]["grade"])
                 for remark in summary["verdict"]["remarks"]:

@@ -56,7 +56,7 @@ class PackFiles(CommandCase):
         self.write("out/pack.json", good.replace('"version": 1', '"version": 2'))
         self.refused("inspect", "out", code=3, saying=("is 2", "reads 1", "newer tilepack"))
         self.refuses(good.replace("[16, 16]", "[16, 18446744073709551616]"), ["tile_size"])
-        self.refuses(good.replace("[16, 16]", "[-16, 16]"), ["tile_size[0]", "-16", "1 to 16384"])
+        self.refuses(good.replace("[16, 16]", "[-16, 16]"), ["tile_size[0]", "-16", "1 to 4096"])
         self.refuses(good.replace("color_0.png", "../sample.png"), ["maps[0].levels[0].file", "leads out of the folder"])
         self.refuses(good.replace("color_0.png", "/etc/passwd"), ["maps[0].levels[0].file", "is an absolute path"])
         self.refuses(good.replace("color_0.png", "..\\\\sample.png"), ["maps[0].levels[0].file", "holds a backslash"])

@@ -66,7 +66,8 @@ TEST_CASE("every depth and channel count comes back exactly, with its header") {
 TEST_CASE("bands give the bytes of the whole image, and the same bytes later") {
   const ScratchFolder folder;
   for (const Depth depth : {Depth::u8, Depth::u16, Depth::f16, Depth::f32}) {
-    const std::string dot_extension = ("." + std::string(name_of(usual_container(depth))));
+    std::string dot_extension = ".";
+    dot_extension += name_of(usual_container(depth));
     const Image image = pattern({61, 45}, 3, depth);
     write_image(folder.path / ("whole" + dot_extension), image, depth, Encoding::linear);
     ImageWriter writer(folder.path / ("bands" + dot_extension), image.size(), 3, depth, Encoding::linear);

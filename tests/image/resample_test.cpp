@@ -70,6 +70,7 @@ TEST_CASE("the Lanczos weights are those of the formula") {
 }
 
 TEST_CASE("filters are found by their names") {
-  for (const ResampleFilter filter : all_filters) CHECK(resample_filter_named(name_of(filter)) == filter);
-  CHECK_FALSE(resample_filter_named("gauss"));
+  for (const ResampleFilter filter : all_filters)
+    CHECK(enum_named<ResampleFilter>(name_of(filter)) == filter);
+  CHECK_FALSE(enum_named<ResampleFilter>("gauss"));
 }

@@ -50,7 +50,7 @@ std::vector<Pack> packs_of_every_kind() {
   rotated.layout = LayoutKind::rotated;
   PackingOptions array = plain;
   array.layout = LayoutKind::array;
-  array.border = 2;
+  array.array.border = 2;
   return {noise_pack_of(plain, Coloring::edge), noise_pack_of(index, Coloring::edge),
           noise_pack_of(torus, Coloring::corner), noise_pack_of(rotated, Coloring::edge),
           noise_pack_of(array, Coloring::edge)};

@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/pack/pack_json.h"
+#include "tilepack/tileset/limits.h"
 
 #include <nlohmann/json.hpp>
 
@@ -181,12 +182,12 @@ TEST_CASE("figures of the synthesis are optional, and all or none", "[pack]") {
 
 TEST_CASE("sizes that multiply past the limits are refused before any memory is taken", "[pack]") {
   json huge = json::parse(pack_json(described(test::noise_pack())));
-  huge["tile_size"] = {16384, 16384};
+  huge["tile_size"] = {limits::largest_tile_side, limits::largest_tile_side};
   huge["mips"]["tile_levels"] = 1;
-  for (auto& map : huge["maps"]) map["levels"] = {{{"file", map["name"]}, {"size", {65536, 65536}}}};
+  for (auto& map : huge["maps"]) map["levels"] = {{{"file", map["name"]}, {"size", {16384, 16384}}}};
   CHECK_FALSE(accepted(huge));
   huge["layout"]["columns"] = huge["layout"]["rows"] = 4096;
-  for (auto& map : huge["maps"]) map["levels"][0]["size"] = {67108864, 67108864};
+  for (auto& map : huge["maps"]) map["levels"][0]["size"] = {16777216, 16777216};
   CHECK_FALSE(accepted(huge));
   json cells = json::parse(pack_json(described(test::noise_pack(MappingKind::index))));
   cells["mapping"]["virtual_size"] = {65536, 65536};

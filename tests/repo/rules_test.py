@@ -138,6 +138,18 @@ class Rules(unittest.TestCase):
                   or re.search(r"\bstd::(cout|cerr|clog)\b|\b(printf|puts)\(|\bexit\(", text)]
         self.none_of(faults, "lib/ prints nothing and parses no command line")
 
+    def test_the_library_names_no_option(self):
+        # It names fields (error/field.h), which whoever shows the message spells: --layout, "layout", layout.
+        literal = re.compile(r'"(?:[^"\\\n]|\\.)*"')
+        faults = []
+        for path, text in files(".h", ".cpp", ".cpp.in", below="lib"):
+            for number, line in enumerate(text.splitlines(), 1):
+                if re.match(r"\s*//", line) or line.lstrip().startswith("#include"):
+                    continue
+                faults += [f"{path}:{number}: {found}" for found in literal.findall(line)
+                           if re.search(r"(?<![\w<!-])--[a-z]", found)]
+        self.none_of(faults, "no option of the command line in a text of lib/: write field(\"name\")")
+
     def test_json_and_image_libraries_stay_out_of_headers(self):
         # ..-inl.h files are parts of a .cpp, compiled once for each instruction set.
         faults = [path for path, text in files(".h", below="lib") if not path.endswith("-inl.h")

@@ -41,7 +41,7 @@ BakeFacts good_facts() {
 bool says(const BakeFacts& facts, Grade grade, const std::string& text) {
   const BakeVerdict verdict = bake_verdict(facts);
   return std::any_of(verdict.remarks.begin(), verdict.remarks.end(), [&](const BakeRemark& r) {
-    return r.grade == grade && r.text.find(text) != std::string::npos;
+    return r.grade == grade && spelled(r.text, FieldSpelling::option).find(text) != std::string::npos;
   });
 }
 
@@ -234,9 +234,38 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     CHECK(says(facts, Grade::fair, "10.0 %"));
   }
   const BakeVerdict verdict = bake_verdict(facts);
+  for (const BakeRemark& remark : verdict.remarks) {
+    INFO(remark.text);
+    const auto codes = remark_codes();
+    CHECK(std::find(codes.begin(), codes.end(), remark.code) != codes.end());
+    if (!remark.cure) continue;
+    CHECK(remark.grade != Grade::good);
+    const std::vector<std::string> fields = bake_field_names();
+    CHECK(std::find(fields.begin(), fields.end(), remark.cure->field) != fields.end());
+    CHECK(remark.text.find(field(remark.cure->field, remark.cure->value)) != std::string::npos);
+  }
   for (std::size_t i = 1; i < verdict.remarks.size(); ++i) // the worst first
     CHECK(verdict.remarks[i - 1].grade >= verdict.remarks[i].grade);
   CHECK(verdict.grade == verdict.remarks.front().grade);
+}
+
+TEST_CASE("a remark tells programs what it means and what to turn", "[bake_verdict]") {
+  const auto cure_of = [](const BakeFacts& facts, const std::string& code) -> std::optional<Cure> {
+    for (const BakeRemark& remark : bake_verdict(facts).remarks)
+      if (remark.code == code) return remark.cure;
+    return Cure{"none", ""};
+  };
+  BakeFacts facts = good_facts();
+  CHECK(cure_of(facts, "cuts-hidden") == std::nullopt);
+  facts.report.figures.cut_mean = 30;
+  CHECK(cure_of(facts, "cuts-seen") == Cure{"effort", "9"});
+  facts.synth.effort = 9;
+  CHECK(cure_of(facts, "cuts-seen") == Cure{"seed", ""});
+  facts.nature.shading = 0.03;
+  facts.flat_drift = 0.004;
+  CHECK(cure_of(facts, "shading") == Cure{"flatten", "100"});
+  facts.sample = {256, 256};
+  CHECK(cure_of(facts, "sample-small") == Cure{"tile-size", "64"});
 }
 
 TEST_CASE("flattening is advised where it helps", "[bake_verdict]") {

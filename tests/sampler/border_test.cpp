@@ -32,8 +32,8 @@ Pack linear_pack(Size tile = {8, 8}) {
 } // namespace
 
 TEST_CASE("borders have names") {
-  for (const WrapMode border : borders) CHECK(border_named(name_of(border)) == border);
-  CHECK_FALSE(border_named("repeat"));
+  for (const WrapMode border : borders) CHECK(enum_named<WrapMode>(name_of(border)) == border);
+  CHECK_FALSE(enum_named<WrapMode>("repeat"));
 }
 
 TEST_CASE("a row goes on beyond its ends as its border says") {

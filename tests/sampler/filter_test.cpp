@@ -47,6 +47,6 @@ TEST_CASE("nearest_texel stays in the tile") {
 
 TEST_CASE("filter names lead back to their filter") {
   for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
-    CHECK(filter_named(name_of(filter)) == filter);
-  CHECK_FALSE(filter_named("cubic"));
+    CHECK(enum_named<Filter>(name_of(filter)) == filter);
+  CHECK_FALSE(enum_named<Filter>("cubic"));
 }

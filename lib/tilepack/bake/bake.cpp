@@ -5,6 +5,7 @@
 #include "tilepack/exemplar/flatten.h"
 #include "tilepack/exemplar/period.h"
 #include "tilepack/pack/file_name.h"
+#include "tilepack/tileset/limits.h"
 #include "tilepack/tileset/sequential_set.h"
 
 #include <fmt/format.h>
@@ -17,10 +18,6 @@
 namespace tilepack {
 namespace {
 
-// Sides that synthesize() takes.
-constexpr int least_tile_side = 4;
-constexpr int most_tile_side = 4096;
-
 TileColors wanted_tiles(const BakeOptions& o) {
   const ColorCounts& k = o.synth.colors;
   if (o.synth.coloring == Coloring::corner) return complete_corner_set(k.corner);
@@ -31,7 +28,7 @@ TileColors wanted_tiles(const BakeOptions& o) {
 void check_choice(const BakeOptions& o) {
   const ColorCounts& k = o.synth.colors;
   const bool edge = o.synth.coloring == Coloring::edge;
-  const int most = edge ? 8 : 4;
+  const int most = edge ? limits::most_edge_colors : limits::most_corner_colors;
   for (const int count : edge ? std::vector{k.horizontal, k.vertical} : std::vector{k.corner})
     if (count < 1 || count > most)
       throw Error(ErrorKind::usage, field("colors"),
@@ -69,14 +66,15 @@ void check_values(const SampleMap& map, Depth stored) {
 void check_fit(const SampleMap& sample, Size tile) {
   const Size size = sample.image.size();
   if (size.width >= tile.width && size.height >= tile.height) return;
-  if (std::max(tile.width, tile.height) > most_tile_side) return; // a fault of the option, and told so later
-  const int side = std::min({size.width, size.height, most_tile_side});
+  if (std::max(tile.width, tile.height) > limits::largest_tile_side)
+    return; // a fault of the option, and told so later
+  const int side = std::min({size.width, size.height, limits::largest_tile_side});
   const std::string way_out =
-      side >= least_tile_side
+      side >= limits::smallest_tile_side_made
           ? fmt::format("take tiles of {} at most ({}) or a larger sample", side,
                         field("tile-size", std::to_string(side)))
           : fmt::format("no tile fits, since tiles have at least {} texels a side: take a larger sample",
-                        least_tile_side);
+                        limits::smallest_tile_side_made);
   throw Error(ErrorKind::invalid_content, label_of(sample),
               fmt::format("has {} x {} texels, too few for a tile of {} x {}; {}", size.width, size.height,
                           tile.width, tile.height, way_out));
@@ -149,7 +147,8 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   if (options.fit_tile_size) {
     periods = detect_periods(samples);
     const Size fitting = fitting_tile_size(*periods, synth.tile_size, samples[0].image.size()).size;
-    synth.tile_size = {std::max(least_tile_side, fitting.width), std::max(least_tile_side, fitting.height)};
+    synth.tile_size = {std::max(limits::smallest_tile_side_made, fitting.width),
+                       std::max(limits::smallest_tile_side_made, fitting.height)};
   }
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);

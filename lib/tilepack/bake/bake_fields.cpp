@@ -1,66 +1,22 @@
 #include "tilepack/bake/bake_fields.h"
 
+#include "tilepack/numeric/enum_names.h"
+#include "tilepack/tileset/limits.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 namespace tilepack {
 namespace {
 
-template <typename Enum>
-struct Choice {
-  const char* name;
-  Enum value;
-};
-template <typename Enum>
-Choice(const char*, Enum) -> Choice<Enum>; // clang 14 deduces none for aggregates
-
-constexpr std::array colorings{Choice{"edge", Coloring::edge}, Choice{"corner", Coloring::corner}};
-constexpr std::array constructions{Choice{"patch", Construction::framed},
-                                   Choice{"quilt", Construction::quilt}};
-constexpr std::array layouts{Choice{"tile-index", LayoutKind::tile_index},
-                             Choice{"de-bruijn", LayoutKind::de_bruijn},
-                             Choice{"rotated", LayoutKind::rotated}, Choice{"array", LayoutKind::array}};
-constexpr std::array mip_modes{Choice{"none", MipMode::none}, Choice{"box", MipMode::box},
-                               Choice{"edges", MipMode::edges}, Choice{"corners", MipMode::corners},
-                               Choice{"least-squares", MipMode::least_squares}};
-constexpr std::array mappings{Choice{"permutation", MappingKind::permutation},
-                              Choice{"mix", MappingKind::mix}, Choice{"even", MappingKind::even},
-                              Choice{"index", MappingKind::index}};
-constexpr std::array set_kinds{Choice{"complete", SetKind::complete},
-                               Choice{"sequential", SetKind::sequential}};
-constexpr std::array turn_filters{Choice{"bilinear", ResampleFilter::bilinear},
-                                  Choice{"bicubic", ResampleFilter::bicubic},
-                                  Choice{"lanczos", ResampleFilter::lanczos}};
-constexpr std::array formats{Choice{"png", PackFormat::png}, Choice{"exr", PackFormat::exr}};
-constexpr std::array depths{Choice{"u8", Depth::u8}, Choice{"u16", Depth::u16}, Choice{"f16", Depth::f16},
-                            Choice{"f32", Depth::f32}};
-
-// "edge|corner"
-template <typename Choices>
-std::string alternatives(const Choices& choices) {
-  std::string list;
-  for (const auto& choice : choices) {
-    if (!list.empty()) list += '|';
-    list += choice.name;
-  }
-  return list;
-}
-
-template <typename Choices>
-auto choice_named(const Choices& choices, const std::string& text) {
-  for (const auto& choice : choices)
-    if (text == choice.name) return choice.value;
-  refuse_value(text, alternatives(choices));
-}
-
-template <typename Choices, typename Enum>
-std::string name_in(const Choices& choices, Enum value) {
-  for (const auto& choice : choices)
-    if (choice.value == value) return choice.name;
-  return "";
+template <NamedEnum Enum>
+Enum choice_named(const std::string& text) {
+  if (const std::optional<Enum> value = enum_named<Enum>(text)) return *value;
+  refuse_value(text, alternatives_of<Enum>());
 }
 
 // A place in the options, which may be in one of their groups.
@@ -108,13 +64,15 @@ FieldValue flag(Place place) {
           [=](const BakeOptions& o) { return std::string(place(o) ? "true" : "false"); }};
 }
 
-template <typename Choices, typename Place>
-FieldValue choice(const Choices& choices, Place place) {
-  return {BakeFieldType::choice, alternatives(choices),
-          [=](BakeOptions& o, const std::string& text) { place(o) = choice_named(choices, text); },
+// One of the names of the enumeration that stands there.
+template <typename Place>
+FieldValue choice(Place place) {
+  using Enum = typename decltype(held(place(std::declval<BakeOptions&>())))::value_type;
+  return {BakeFieldType::choice, alternatives_of<Enum>(),
+          [=](BakeOptions& o, const std::string& text) { place(o) = choice_named<Enum>(text); },
           [=](const BakeOptions& o) {
             const auto chosen = held(place(o));
-            return chosen ? name_in(choices, *chosen) : std::string();
+            return chosen ? std::string(name_of(*chosen)) : std::string();
           }};
 }
 
@@ -148,12 +106,14 @@ void follow_set(BakeOptions& o) {
 void set_colors(BakeOptions& o, const std::string& text) {
   if (o.synth.coloring == Coloring::corner) {
     std::int64_t count = 0;
-    if (!parse_whole(text, 1, 4, count))
-      refuse_value(text,
-                   "a whole number of 1 to 4, of corners; 1 to 8 or HxV with " + field("coloring", "edge"));
+    if (!parse_whole(text, 1, limits::most_corner_colors, count))
+      refuse_value(text, fmt::format("a whole number of 1 to {}, of corners; 1 to {} or HxV with {}",
+                                     limits::most_corner_colors, limits::most_edge_colors,
+                                     field("coloring", "edge")));
     o.synth.colors = {0, 0, static_cast<int>(count)};
   } else {
-    const Extent e = parsed_extent(text, 1, 8, ": H horizontal and V vertical colors", "HxV");
+    const Extent e =
+        parsed_extent(text, 1, limits::most_edge_colors, ": H horizontal and V vertical colors", "HxV");
     o.synth.colors = {static_cast<int>(e.width), static_cast<int>(e.height), 0};
   }
 }
@@ -166,7 +126,8 @@ std::string get_colors(const BakeOptions& o) {
 void set_tile_size(BakeOptions& o, const std::string& text) {
   o.fit_tile_size = text == "auto";
   if (o.fit_tile_size) return;
-  const Extent e = parsed_extent(text, 4, 4096, ", or auto");
+  const Extent e =
+      parsed_extent(text, limits::smallest_tile_side_made, limits::largest_tile_side, ", or auto");
   o.synth.tile_size = {static_cast<int>(e.width), static_cast<int>(e.height)};
 }
 
@@ -176,13 +137,16 @@ std::string get_tile_size(const BakeOptions& o) {
 
 // "3,1" or "3,1,2".
 void set_scheme(BakeOptions& o, const std::string& text) {
-  const auto refused = [&] { refuse_value(text, "N,K or N,K,2 with 1 <= N <= 256 and 0 <= K <= N"); };
+  const auto refused = [&] {
+    refuse_value(text,
+                 fmt::format("N,K or N,K,2 with 1 <= N <= {} and 0 <= K <= N", limits::largest_scheme_n));
+  };
   std::array<std::int64_t, 3> part{0, 0, 1};
   std::size_t count = 0;
   for (std::size_t at = 0; at <= text.size() && count < 4; ++count) {
     const std::size_t end = std::min(text.find(',', at), text.size());
     if (count == 3 || !parse_whole(std::string_view(text).substr(at, end - at), count == 1 ? 0 : 1,
-                                   count == 2 ? 2 : 256, part[count]))
+                                   count == 2 ? 2 : limits::largest_scheme_n, part[count]))
       refused();
     at = end + 1;
   }
@@ -198,7 +162,7 @@ std::string get_scheme(const BakeOptions& o) {
 }
 
 void set_virtual_size(BakeOptions& o, const std::string& text) {
-  const Extent e = parsed_extent(text, 1, std::int64_t{1} << 31);
+  const Extent e = parsed_extent(text, 1, limits::longest_virtual_side);
   o.virtual_size = {e.width, e.height};
 }
 
@@ -219,39 +183,40 @@ std::vector<BakeField> make_fields() {
   flatten.get = get_flatten;
   return {
       {"tile-size", tiles, read_by(Type::extent, "N|WxH|auto", set_tile_size, get_tile_size),
-       "side of a tile in texels, 4 to 4096; auto: whole periods of the sample near 128"},
+       fmt::format("side of a tile in texels, {} to {}; auto: whole periods of the sample near 128",
+                   limits::smallest_tile_side_made, limits::largest_tile_side)},
       {"flatten", tiles, flatten,
        "percent of slow shading (uneven light, a tone that drifts) taken out of color and height, 0 to 100"},
-      {"coloring", tiles,
-       with_consequence(choice(colorings, at(&O::synth, &SynthOptions::coloring)), follow_coloring),
+      {"coloring", tiles, with_consequence(choice(at(&O::synth, &SynthOptions::coloring)), follow_coloring),
        "what neighbouring tiles agree on; corner unless another option is for edge colors only"},
       {"colors", tiles, read_by(Type::extent, "N|HxV", set_colors, get_colors),
-       "colors of horizontal and vertical edges, 1 to 8, or of corners, 1 to 4"},
-      {"set", tiles, with_consequence(choice(set_kinds, at(&O::set)), follow_set),
+       fmt::format("colors of horizontal and vertical edges, 1 to {}, or of corners, 1 to {}",
+                   limits::most_edge_colors, limits::most_corner_colors)},
+      {"set", tiles, with_consequence(choice(at(&O::set)), follow_set),
        "tiles made: every combination of colors, or two for each north and west color, for an index map"},
-      {"interior", tiles, choice(constructions, at(&O::synth, &SynthOptions::interior)),
+      {"interior", tiles, choice(at(&O::synth, &SynthOptions::interior)),
        "how the inside of a tile is made: its own window of the sample, or the patches of its edges alone"},
-      {"guard", tiles, whole_number(0, 512, at(&O::synth, &SynthOptions::guard)),
+      {"guard", tiles, whole_number(0, limits::largest_guard_made, at(&O::synth, &SynthOptions::guard)),
        "texels either side of an edge that all tiles of its color share, 0 to an eighth of the tile"},
-      {"effort", tiles, whole_number(0, 9, at(&O::synth, &SynthOptions::effort)),
-       "time for quality, 0 (fast) to 9"},
+      {"effort", tiles, whole_number(0, limits::highest_effort, at(&O::synth, &SynthOptions::effort)),
+       fmt::format("time for quality, 0 (fast) to {}", limits::highest_effort)},
       {"seed", packing,
        whole_number(0, static_cast<std::int64_t>(largest_seed), at(&O::synth, &SynthOptions::seed)),
        "another number gives other tiles, 0 to 2^53 - 1"},
-      {"layout", packing, choice(layouts, at(&O::layout)), "how tiles lie in the texture"},
+      {"layout", packing, choice(at(&O::layout)), "how tiles lie in the texture"},
       {"scheme", packing, read_by(Type::choice, "N,K[,2]", set_scheme, get_scheme),
        "rotated layout: N² + K² tiles in a square texture, or that twice; the best unless given"},
-      {"gutter", packing, whole_number(0, 4096, at(&O::rotated, &RotatedOptions::gutter)),
+      {"gutter", packing, whole_number(0, limits::largest_gutter, at(&O::rotated, &RotatedOptions::gutter)),
        "rotated layout: texels round each tile; unless given, 0 where neighbours match and 2 elsewhere"},
       {"power-of-two", packing, flag(at(&O::rotated, &RotatedOptions::power_of_two)),
        "rotated layout: sides of the texture are powers of two"},
-      {"turn-filter", packing, choice(turn_filters, at(&O::rotated, &RotatedOptions::turn_filter)),
+      {"turn-filter", packing, choice(at(&O::rotated, &RotatedOptions::turn_filter)),
        "rotated layout: how turned tiles are resampled"},
-      {"border", packing, whole_number(0, 2048, at(&O::array, &ArrayOptions::border)),
+      {"border", packing, whole_number(0, limits::largest_layer_border, at(&O::array, &ArrayOptions::border)),
        "array layout: texels round each tile, 0 or a power of two"},
       {"corner-pack", packing, flag(at(&O::corner_pack)),
        "add a pack of the surroundings of tile corners (edge coloring)"},
-      {"mips", packing, choice(mip_modes, at(&O::mips, &MipOptions::mode)),
+      {"mips", packing, choice(at(&O::mips, &MipOptions::mode)),
        "what is done to the border texels of coarser levels; none: level 0 only"},
       {"jump-weight", packing, whole_number(0, 1000, at(&O::mips, &MipOptions::jump_weight)),
        "mips least-squares: cost of a jump across a border against that of an error, 0 to 1000"},
@@ -259,15 +224,14 @@ std::vector<BakeField> make_fields() {
        "coarser levels of roughness take up the spread of the normals they average"},
       {"alpha-coverage", material, whole_number(0, 100, at(&O::mips, &MipOptions::alpha_coverage)),
        "coarser levels keep the share of texels whose alpha reaches N percent, 1 to 100; 0: they don't"},
-      {"mapping", packing, choice(mappings, at(&O::mapping)),
+      {"mapping", packing, choice(at(&O::mapping)),
        "how the tile of a cell is found: hash table, integer hash, a pattern without near repeats placed by "
        "the hash (corner colors; then the default), or a stored map"},
       {"virtual-size", packing, read_by(Type::extent, "N|WxH", set_virtual_size, get_virtual_size),
        "size of the virtual texture in tiles, 1 to 2^31"},
-      {"format", packing, choice(formats, at(&O::format)),
+      {"format", packing, choice(at(&O::format)),
        "image files of the pack; as the depth asks for unless given"},
-      {"depth", packing, choice(depths, at(&O::depth)),
-       "of the stored channels; as in the sample unless given"},
+      {"depth", packing, choice(at(&O::depth)), "of the stored channels; as in the sample unless given"},
   };
 }
 
@@ -280,7 +244,8 @@ bool asks_for_edge_colors(std::span<const BakeSetting> settings) {
   const std::string colors = value("colors");
   return value("layout") == "tile-index" || value("corner-pack") == "true" || value("set") == "sequential" ||
          value("interior") == "quilt" || colors.find('x') != std::string::npos ||
-         (colors.size() == 1 && colors >= "5" && colors <= "8");
+         (colors.size() == 1 && colors > std::to_string(limits::most_corner_colors) &&
+          colors <= std::to_string(limits::most_edge_colors));
 }
 
 } // namespace

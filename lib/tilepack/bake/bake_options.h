@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/bake/packing.h"
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/synth/synth_options.h"
 
 namespace tilepack {
@@ -11,6 +12,10 @@ enum class SetKind {
   sequential, ///< 2 · Kh · Kv edge-colored tiles for an index map filled row by row
               ///< (tileset/sequential_set.h)
 };
+
+template <>
+inline constexpr auto enum_names<SetKind> =
+    std::array{EnumName{SetKind::complete, "complete"}, EnumName{SetKind::sequential, "sequential"}};
 
 /// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
 /// keys of a preset: see bake/bake_fields.h, which holds their names, ranges and help.

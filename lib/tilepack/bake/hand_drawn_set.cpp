@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/json/json_cursor.h"
 #include "tilepack/tileset/border_agreement.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -12,12 +13,6 @@
 
 namespace tilepack {
 namespace {
-
-constexpr std::size_t most_tiles = 4096;
-constexpr int most_edge_colors = 8;
-constexpr int most_corner_colors = 4;
-constexpr int smallest_side = 4;
-constexpr int largest_side = 4096;
 
 std::tuple<int, int, int, int> order_of(const EdgeTile& t) {
   return {t.north, t.east, t.south, t.west};
@@ -47,14 +42,15 @@ std::vector<std::size_t> usual_order(const TileColors& tiles) {
 
 TileColors parsed_color_list(std::string_view text, const std::string& file) {
   const JsonCursor root = JsonCursor::parse(text, file);
-  const std::size_t count = root.array(1, most_tiles);
+  const std::size_t count = root.array(1, limits::most_tiles);
   const bool corner = root.item(0).find("nw").has_value();
   std::vector<EdgeTile> edges;
   std::vector<CornerTile> corners;
   for (std::size_t i = 0; i < count; ++i) {
     const JsonCursor tile = root.item(i);
     const auto color = [&](const char* name) {
-      return tile.member(name).small_integer(0, (corner ? most_corner_colors : most_edge_colors) - 1);
+      return tile.member(name).small_integer(
+          0, (corner ? limits::most_corner_colors : limits::most_edge_colors) - 1);
     };
     if (corner) {
       tile.only({"nw", "ne", "sw", "se"});
@@ -77,10 +73,10 @@ TileSet drawn_set(std::span<const HandDrawnTile> drawings, const TileColors& til
   const ImageFile& first = drawings[0].image;
   const Size size = first.image.size();
   for (const int side : {size.width, size.height})
-    if (side < smallest_side || side > largest_side)
+    if (side < limits::smallest_tile_side_made || side > limits::largest_tile_side)
       throw Error(ErrorKind::invalid_content, drawings[0].file,
                   fmt::format("is {} x {} texels; each side of a tile must be {} to {}", size.width,
-                              size.height, smallest_side, largest_side));
+                              size.height, limits::smallest_tile_side_made, limits::largest_tile_side));
   for (const HandDrawnTile& drawing : drawings) {
     if (drawing.image.image.size() != size)
       throw Error(ErrorKind::invalid_content, drawing.file,

@@ -11,6 +11,7 @@
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/pack/stored_format_for.h"
 #include "tilepack/tileset/border_agreement.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -23,8 +24,6 @@ MappingKind mapping_kind(const PackingOptions& o, const TileColors& tiles) {
   if (o.mapping) return *o.mapping;
   return has_even_pattern(color_counts(tiles).corner) ? MappingKind::even : MappingKind::mix;
 }
-
-constexpr int longest_texture_side = 65536;
 
 void check_layout_fits(const PackingOptions& o, const TileColors& tiles) {
   const bool corner = coloring_of(tiles) == Coloring::corner;
@@ -105,14 +104,13 @@ void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
   if (kind == MappingKind::permutation) permutation_mapping(o.virtual_size, color_counts(tiles), 0);
   if (kind == MappingKind::mix) mix_mapping(o.virtual_size, 0);
   if (kind == MappingKind::even) even_mapping(o.virtual_size, color_counts(tiles).corner, 0);
-  constexpr std::int64_t longest_side = 65536;
-  constexpr std::int64_t most_cells = std::int64_t{1} << 26;
   const VirtualSize& size = o.virtual_size;
-  if (kind == MappingKind::index && (size.width < 1 || size.height < 1 || size.width > longest_side ||
-                                     size.height > longest_side || size.width * size.height > most_cells))
+  if (kind == MappingKind::index &&
+      (size.width < 1 || size.height < 1 || size.width > limits::longest_index_side ||
+       size.height > limits::longest_index_side || size.width * size.height > limits::most_index_cells))
     throw Error(ErrorKind::usage, field("virtual-size"),
                 fmt::format("{}x{} tiles; an index map has sides of 1 to {} and at most {} cells", size.width,
-                            size.height, longest_side, most_cells));
+                            size.height, limits::longest_index_side, limits::most_index_cells));
 }
 
 // Tiles as the pack will store level 0, so that coarser levels are made from what is really there.
@@ -143,14 +141,14 @@ PackingPlan planned_packing(const PackingOptions& options, const TileColors& til
   plan.texture = texture_size(plan.layout, tile_size, 0);
   const Size texture = plan.texture;
   const std::int64_t texels = std::int64_t{texture.width} * texture.height;
-  if (texels > most_texels_a_level || std::max(texture.width, texture.height) > longest_texture_side)
+  if (texels > most_texels_a_level || std::max(texture.width, texture.height) > limits::longest_texture_side)
     throw Error(
         ErrorKind::usage, field("tile-size"),
         fmt::format(
             "{} tiles of {} x {} texels make a texture of {} x {}; a pack has at most {} texels, and {} a "
             "side: take smaller tiles or fewer colors",
             tile_count(tiles), tile_size.width, tile_size.height, texture.width, texture.height,
-            most_texels_a_level, longest_texture_side));
+            most_texels_a_level, limits::longest_texture_side));
   return plan;
 }
 

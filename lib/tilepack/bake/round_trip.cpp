@@ -1,7 +1,7 @@
 #include "tilepack/bake/round_trip.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/numeric/exact_math.h"
+#include "tilepack/image/peak_to_noise.h"
 #include "tilepack/numeric/random.h"
 
 #include <fmt/format.h>
@@ -42,14 +42,14 @@ double rms_difference(const std::vector<Image>& a, const std::vector<Image>& b) 
   return std::sqrt(sum / count);
 }
 
-} // namespace
-
-std::optional<double> peak_to_noise(double peak, double rms) {
-  if (!(peak > 0) || !(rms > 0) || !std::isfinite(peak) || !std::isfinite(rms)) return {};
-  constexpr double ln_10 = 2.30258509299404568402;
-  const double decibels = 20 * (exact_logarithm(peak) - exact_logarithm(rms)) / ln_10;
-  return std::floor(decibels * 100 + 0.5) / 100;
+// In decibels, rounded to hundredths: as pack.json has it.
+std::optional<double> loss(double peak, double rms) {
+  const std::optional<double> decibels = peak_to_noise(peak, rms);
+  if (!decibels) return {};
+  return std::floor(*decibels * 100 + 0.5) / 100;
 }
+
+} // namespace
 
 std::vector<RoundTrip> round_trips(const TileMap& finest, const TileColors& tiles, const Layout& layout,
                                    Size tile_size, Outside outside) {
@@ -61,7 +61,7 @@ std::vector<RoundTrip> round_trips(const TileMap& finest, const TileColors& tile
     const Image texture =
         quantised(place_tiles(finest, tiles, layout, tile_size, 0, {filter, outside}), finest.depth);
     results.back().psnr =
-        peak_to_noise(peak, rms_difference(tiles_at_level(texture, layout, tile_size, 0), finest.tiles));
+        loss(peak, rms_difference(tiles_at_level(texture, layout, tile_size, 0), finest.tiles));
   }
   return results;
 }

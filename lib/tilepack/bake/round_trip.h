@@ -4,7 +4,6 @@
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/pack/pack.h"
 
-#include <optional>
 #include <vector>
 
 namespace tilepack {
@@ -18,9 +17,5 @@ std::vector<RoundTrip> round_trips(const TileMap& finest, const TileColors& tile
 /// The same for tiles that don't exist yet: windows of `sample` spread over it, as many as the plan has
 /// tiles, nothing read beyond a window. Throws Error (invalid_content) if the sample is smaller than a tile.
 std::vector<RoundTrip> round_trips(const SampleMap& sample, const LayoutCandidate& plan, int tile_side);
-
-/// 20 log10(peak / rms) in decibels, rounded to hundredths, without the C library's logarithm, whose last bit
-/// may differ from one processor to another. Unset if rms is 0 or either is not a positive number.
-std::optional<double> peak_to_noise(double peak, double rms);
 
 } // namespace tilepack

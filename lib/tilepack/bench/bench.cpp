@@ -73,7 +73,8 @@ std::vector<CornerPicture> corner_pictures(const Pack& pack, int map, int level)
                      {wanted.data(), channels});
         double worst = 0;
         for (std::size_t c = 0; c < channels; ++c) {
-          const bool light = packed.encoding == Encoding::srgb && (channels % 2 == 1 || c + 1 < channels);
+          const bool light =
+              packed.encoding == Encoding::srgb && static_cast<int>(c) < color_channels(packed.channels);
           const auto code = [&](double v) { return 255 * (light ? linear_to_srgb(v) : v); };
           worst = std::max(worst, std::fabs(code(got[c]) - code(wanted[c])));
         }

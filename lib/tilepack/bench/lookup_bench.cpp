@@ -66,7 +66,7 @@ LookupFrame over_whole_texture(const LookupFrame& frame, int columns, int rows) 
 }
 
 double encoded(const PackedMap& map, double linear, std::size_t channel) {
-  const bool light = map.channels % 2 == 1 || channel + 1 < static_cast<std::size_t>(map.channels);
+  const bool light = static_cast<int>(channel) < color_channels(map.channels);
   return map.encoding == Encoding::srgb && light ? linear_to_srgb(linear) : linear;
 }
 
@@ -361,34 +361,6 @@ void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupB
 }
 
 } // namespace
-
-std::string_view name_of(BenchSampler sampler) {
-  return sampler == BenchSampler::fast ? "fast" : "reference";
-}
-
-std::string_view name_of(BenchFilter filter) {
-  switch (filter) {
-  case BenchFilter::bilinear:
-    return "bilinear";
-  case BenchFilter::trilinear:
-    return "trilinear";
-  case BenchFilter::elliptical:
-    break;
-  }
-  return "elliptical";
-}
-
-std::string_view name_of(BenchWeights weights) {
-  switch (weights) {
-  case BenchWeights::single:
-    return "float";
-  case BenchWeights::fixed_8_8:
-    return "8.8";
-  case BenchWeights::wide:
-    break;
-  }
-  return "double";
-}
 
 std::string_view corners_of(const LookupCost& cost) {
   return cost.corner_pack ? "corner pack" : "tiles alone";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/pack/pack.h"
 #include "tilepack/sampler/fast_sampler.h"
 
@@ -36,9 +37,17 @@ enum class BenchWeights {
   fixed_8_8, ///< 8 bits, as graphics hardware has them
   wide,      ///< double: the reference sampler
 };
-std::string_view name_of(BenchSampler sampler); ///< "fast", "reference"
-std::string_view name_of(BenchFilter filter);
-std::string_view name_of(BenchWeights weights); ///< "float", "8.8", "double"
+template <>
+inline constexpr auto enum_names<BenchSampler> =
+    std::array{EnumName{BenchSampler::fast, "fast"}, EnumName{BenchSampler::reference, "reference"}};
+template <>
+inline constexpr auto enum_names<BenchFilter> =
+    std::array{EnumName{BenchFilter::bilinear, "bilinear"}, EnumName{BenchFilter::trilinear, "trilinear"},
+               EnumName{BenchFilter::elliptical, "elliptical"}};
+template <>
+inline constexpr auto enum_names<BenchWeights> =
+    std::array{EnumName{BenchWeights::single, "float"}, EnumName{BenchWeights::fixed_8_8, "8.8"},
+               EnumName{BenchWeights::wide, "double"}};
 
 /// One way to look the pack up, what it costs and how far off it is.
 struct LookupCost {

@@ -26,7 +26,7 @@ constexpr int smallest_turned = 8;
 // they lose, and alpha may be scaled to keep its coverage: those are the mip stage's own affair.
 bool plain_boxes(const PackedMap& map) {
   const bool averaged = map.role == Role::color || map.role == Role::height || map.role == Role::data;
-  return averaged && map.channels % 2 == 1;
+  return averaged && color_channels(map.channels) == map.channels;
 }
 
 double full_range(const PackedMap& map) {

@@ -69,8 +69,7 @@ void check_index(const Pack& pack, std::vector<Issue>& issues) {
   };
   const auto legal = [&](int id) { return id >= 0 && id < tiles; };
   const auto fits = [&](int id, Side side, int neighbour, Side facing) {
-    return !legal(neighbour) || border_key(pack.tiles, pack.colors, id, side) ==
-                                    border_key(pack.tiles, pack.colors, neighbour, facing);
+    return !legal(neighbour) || border_key(pack.tiles, id, side) == border_key(pack.tiles, neighbour, facing);
   };
   std::int64_t bad_ids = 0;
   std::int64_t bad_borders = 0;

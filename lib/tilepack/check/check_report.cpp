@@ -26,7 +26,7 @@ bool passed(const Report& report) {
   return count(report.issues).errors == 0;
 }
 
-std::string report_text(const Report& report) {
+std::string report_text(const Report& report, FieldSpelling spelling) {
   std::string text;
   std::map<Rule, int> seen;
   for (const Issue& issue : report.issues) {
@@ -36,12 +36,13 @@ std::string report_text(const Report& report) {
     if (!issue.where.empty()) text += fmt::format("  where     {}\n", issue.where);
     if (!issue.found.empty()) text += fmt::format("  found     {}\n", issue.found);
     if (!issue.expected.empty()) text += fmt::format("  expected  {}\n", issue.expected);
-    text += fmt::format("  effect    {}\n  fix       {}\n\n", rule.why, rule.remedy);
+    text += fmt::format("  effect    {}\n  fix       {}\n\n", rule.why, spelled(rule.remedy, spelling));
   }
   for (const auto& [rule, number] : seen)
     if (number > shown_of_a_rule)
-      text += fmt::format("{} {}: {} more of these; --format json lists all\n\n",
-                          name_of(text_of(rule).severity), code_of(rule), number - shown_of_a_rule);
+      text +=
+          fmt::format("{} {}: {} more of these; {} lists all\n\n", name_of(text_of(rule).severity),
+                      code_of(rule), number - shown_of_a_rule, spelled(field("format", "json"), spelling));
   text +=
       fmt::format("{}: {}. {} ({}, {}, {} looked at)\n", report.subject, passed(report) ? "passed" : "FAILED",
                   severity_counts(count(report.issues)), counted(report.tiles, "tile"),
@@ -49,7 +50,7 @@ std::string report_text(const Report& report) {
   return text;
 }
 
-std::string report_json(const Report& report) {
+std::string report_json(const Report& report, FieldSpelling spelling) {
   const IssueCounts counts = count(report.issues);
   JsonValue issues = JsonValue::array();
   for (const Issue& issue : report.issues) {
@@ -61,7 +62,7 @@ std::string report_json(const Report& report) {
                       {"found", issue.found},
                       {"expected", issue.expected},
                       {"effect", rule.why},
-                      {"remedy", rule.remedy}});
+                      {"remedy", spelled(rule.remedy, spelling)}});
   }
   return json_text(
       {{"pack", report.subject},
@@ -71,22 +72,22 @@ std::string report_json(const Report& report) {
        {"issues", std::move(issues)}});
 }
 
-std::string rules_text() {
+std::string rules_text(FieldSpelling spelling) {
   std::string text;
   for (const RuleText& rule : rules())
     text += fmt::format("{} {:<7} {}\n              {}\n              {}\n", code_of(rule.rule),
-                        name_of(rule.severity), rule.summary, rule.why, rule.remedy);
+                        name_of(rule.severity), rule.summary, rule.why, spelled(rule.remedy, spelling));
   return text;
 }
 
-std::string rules_json() {
+std::string rules_json(FieldSpelling spelling) {
   JsonValue list = JsonValue::array();
   for (const RuleText& rule : rules())
     list.push_back({{"rule", code_of(rule.rule)},
                     {"severity", name_of(rule.severity)},
                     {"summary", rule.summary},
                     {"effect", rule.why},
-                    {"remedy", rule.remedy}});
+                    {"remedy", spelled(rule.remedy, spelling)}});
   return json_text({{"rules", std::move(list)}});
 }
 

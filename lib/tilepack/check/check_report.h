@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/check/issues.h"
+#include "tilepack/error/field.h"
 
 #include <cstdint>
 #include <string>
@@ -22,13 +23,14 @@ bool passed(const Report& report);
 
 /// For people: one paragraph an issue (what, where, found and expected, how to fix), at most eight of a rule,
 /// then a line of counts.
-std::string report_text(const Report& report);
+/// Options are spelled for the reader, here and below.
+std::string report_text(const Report& report, FieldSpelling spelling = FieldSpelling::option);
 
 /// For programs: the same as JSON, held to lib/tilepack/check/report.schema.json by a test. Ends in a newline.
-std::string report_json(const Report& report);
+std::string report_json(const Report& report, FieldSpelling spelling = FieldSpelling::option);
 
 /// The table of rules, for people and for programs.
-std::string rules_text();
-std::string rules_json();
+std::string rules_text(FieldSpelling spelling = FieldSpelling::option);
+std::string rules_json(FieldSpelling spelling = FieldSpelling::option);
 
 } // namespace tilepack

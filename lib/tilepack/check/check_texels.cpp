@@ -1,8 +1,8 @@
 #include "tilepack/check/level_view.h"
 #include "tilepack/check/structure_checks.h"
 #include "tilepack/check/tile_border.h"
-#include "tilepack/mip/shared_border.h"
 #include "tilepack/mip/level_size.h"
+#include "tilepack/mip/shared_border.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -113,7 +113,7 @@ void check_strip(const LevelView& view, BorderStrip strip, RuleOfRow&& rule_of_r
   std::map<int, std::vector<Member>> groups;
   for (int tile = 0; tile < tile_count(pack.tiles); ++tile)
     if (view.rects[tile])
-      groups[border_key(pack.tiles, pack.colors, tile, strip.side)].push_back(
+      groups[border_key(pack.tiles, tile, strip.side)].push_back(
           {tile, values_of(*view.image, *view.rects[tile], strip)});
   const int row_length = texels / strip.rows;
   for (const auto& [key, group] : groups)

@@ -3,6 +3,7 @@
 #include "tilepack/layout/rotated_lattice.h"
 #include "tilepack/layout/surroundings.h"
 #include "tilepack/layout/tile_index.h"
+#include "tilepack/numeric/grid.h"
 
 #include <fmt/format.h>
 
@@ -61,14 +62,13 @@ bool placed_in_grid(const Layout& layout, const Cell& cell) {
 }
 
 // Tile of each grid cell, row by row; -1 where there is none.
-std::vector<int> grid_of(const Pack& pack) {
+Grid<int> grid_of(const Pack& pack) {
   const Layout& layout = pack.layout;
   if (layout.columns <= 0 || layout.rows <= 0) return {};
-  std::vector<int> grid(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows), -1);
+  Grid<int> grid(layout.columns, layout.rows, -1);
   for (const Cell& cell : layout.cells)
     if (placed_in_grid(layout, cell) && cell.tile >= 0 && cell.tile < tile_count(pack.tiles))
-      grid[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(layout.columns) + cell.column] =
-          cell.tile;
+      grid.at(cell.column, cell.row) = cell.tile;
   return grid;
 }
 
@@ -103,14 +103,10 @@ void check_cells(const Pack& pack, std::vector<Issue>& issues) {
 
 void check_neighbours(const Pack& pack, std::vector<Issue>& issues) {
   const Layout& layout = pack.layout;
-  const std::vector<int> grid = grid_of(pack);
-  const auto at = [&](int column, int row) {
-    return grid[static_cast<std::size_t>(row % layout.rows) * static_cast<std::size_t>(layout.columns) +
-                column % layout.columns];
-  };
+  const Grid<int> grid = grid_of(pack);
+  const auto at = [&](int column, int row) { return grid.at(column % layout.columns, row % layout.rows); };
   const auto compare = [&](int tile, Side side, int neighbour, Side facing, int column, int row) {
-    if (neighbour < 0 || border_key(pack.tiles, pack.colors, tile, side) ==
-                             border_key(pack.tiles, pack.colors, neighbour, facing))
+    if (neighbour < 0 || border_key(pack.tiles, tile, side) == border_key(pack.tiles, neighbour, facing))
       return;
     issues.push_back(
         {Rule::border_colors,
@@ -148,9 +144,7 @@ void check_turned_neighbours(const Pack& pack, std::vector<Issue>& issues) {
   if (lattice.sites() != static_cast<int>(pack.layout.cells.size())) return;
   const std::vector<Surroundings> around = packed_surroundings(pack.layout);
   const auto compare = [&](int tile, Side side, int neighbour, Side facing) {
-    if (border_key(pack.tiles, pack.colors, tile, side) ==
-        border_key(pack.tiles, pack.colors, neighbour, facing))
-      return;
+    if (border_key(pack.tiles, tile, side) == border_key(pack.tiles, neighbour, facing)) return;
     issues.push_back({Rule::border_colors,
                       fmt::format("layout, tile {} and its {} neighbour", tile, name_of(side)),
                       fmt::format("tile {} {} beside tile {} {}", tile, border_text(pack.tiles, tile, side),

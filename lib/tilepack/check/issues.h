@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/numeric/enum_names.h"
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,7 +15,10 @@ enum class Severity {
   note,    ///< worth knowing
 };
 
-std::string_view name_of(Severity severity); ///< "error", "warning", "note"
+template <>
+inline constexpr auto enum_names<Severity> =
+    std::array{EnumName{Severity::error, "error"}, EnumName{Severity::warning, "warning"},
+               EnumName{Severity::note, "note"}};
 
 /// What can be wrong with a pack. The numbers are stable: they are printed as TP101 and so on, scripts may
 /// rely on them, and a number that goes out of use is never given to another rule.
@@ -75,7 +80,7 @@ struct RuleText {
   Severity severity = Severity::error;
   std::string_view summary; ///< what is wrong, one clause
   std::string_view why;     ///< what the user would see
-  std::string_view remedy;  ///< the way out
+  std::string remedy;       ///< the way out; options as marked fields (error/field.h)
 };
 
 /// Every rule, in the order of their numbers: the one table that reports, `--list-rules` and the

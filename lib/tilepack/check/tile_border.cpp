@@ -1,5 +1,7 @@
 #include "tilepack/check/tile_border.h"
 
+#include "tilepack/tileset/border_colors.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,20 +28,6 @@ CornerPair ends(const CornerTile& tile, Side side) {
   return {tile.nw, tile.sw};
 }
 
-int color(const EdgeTile& tile, Side side) {
-  switch (side) {
-  case Side::north:
-    return tile.north;
-  case Side::east:
-    return tile.east;
-  case Side::south:
-    return tile.south;
-  case Side::west:
-    break;
-  }
-  return tile.west;
-}
-
 bool horizontal(Side side) {
   return side == Side::north || side == Side::south;
 }
@@ -50,20 +38,25 @@ int length(Size tile, BorderStrip strip) {
 
 } // namespace
 
-std::string_view name_of(Side side) {
-  constexpr std::string_view names[] = {"north", "east", "south", "west"};
-  return names[static_cast<int>(side)];
-}
-
-int border_key(const TileColors& tiles, const ColorCounts& colors, int tile, Side side) {
-  if (const auto* edges = std::get_if<std::vector<EdgeTile>>(&tiles)) return color((*edges)[tile], side);
-  const CornerPair pair = ends(std::get<std::vector<CornerTile>>(tiles)[tile], side);
-  return pair.first * colors.corner + pair.second;
+int border_key(const TileColors& tiles, int tile, Side side) {
+  const BorderColors borders =
+      std::visit([&](const auto& list) { return borders_of(list[static_cast<std::size_t>(tile)]); }, tiles);
+  switch (side) {
+  case Side::north:
+    return borders.north;
+  case Side::east:
+    return borders.east;
+  case Side::south:
+    return borders.south;
+  case Side::west:
+    break;
+  }
+  return borders.west;
 }
 
 std::string border_text(const TileColors& tiles, int tile, Side side) {
-  if (const auto* edges = std::get_if<std::vector<EdgeTile>>(&tiles))
-    return fmt::format("{} edge (color {})", name_of(side), color((*edges)[tile], side));
+  if (std::holds_alternative<std::vector<EdgeTile>>(tiles))
+    return fmt::format("{} edge (color {})", name_of(side), border_key(tiles, tile, side));
   const CornerPair pair = ends(std::get<std::vector<CornerTile>>(tiles)[tile], side);
   return fmt::format("{} edge (corner colors {}, {})", name_of(side), pair.first, pair.second);
 }

@@ -2,6 +2,7 @@
 
 #include "tilepack/image/image.h"
 #include "tilepack/mip/shared_border.h"
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/tileset/tile_colors.h"
 
 #include <string>
@@ -13,12 +14,14 @@ namespace tilepack {
 enum class Side { north, east, south, west };
 inline constexpr Side all_sides[] = {Side::north, Side::east, Side::south, Side::west};
 
-std::string_view name_of(Side side); ///< "north", "east", "south", "west"
+template <>
+inline constexpr auto enum_names<Side> =
+    std::array{EnumName{Side::north, "north"}, EnumName{Side::east, "east"}, EnumName{Side::south, "south"},
+               EnumName{Side::west, "west"}};
 
-/// The color of one side of a tile as one number: the edge's color, or for corner coloring
-/// first * count + second with `first` its west or north end and `count` the number of corner colors. Two
-/// tiles fit across a border when the east key of one is the west key of the other, or south and north.
-int border_key(const TileColors& tiles, const ColorCounts& colors, int tile, Side side);
+/// The color of one side of a tile as one number (BorderColors). Two tiles fit across a border when the east
+/// key of one is the west key of the other, or south and north.
+int border_key(const TileColors& tiles, int tile, Side side);
 
 /// "north edge (color 1)" or "north edge (corner colors 0, 1)".
 std::string border_text(const TileColors& tiles, int tile, Side side);

@@ -63,8 +63,8 @@ double mean_of_positive(const Image& image, int channels) {
 void add_sources(const SampleMap& map, std::vector<Source>& sources) {
   const Image& image = map.image;
   const double weight = weight_of(map.role);
-  const bool has_alpha = map.role == Role::color && image.channels() % 2 == 0;
-  const int plain_channels = image.channels() - (has_alpha ? 1 : 0);
+  const bool alpha = has_alpha(map.role, image.channels());
+  const int plain_channels = image.channels() - (alpha ? 1 : 0);
   Curve curve;
   curve.scale = 255.0 * weight;
   if (map.role == Role::color && map.encoding == Encoding::linear) {
@@ -75,9 +75,8 @@ void add_sources(const SampleMap& map, std::vector<Source>& sources) {
     curve.low = static_cast<double>(*low);
     curve.scale = *high > *low ? 255.0 * weight / (static_cast<double>(*high) - curve.low) : 0.0;
   }
-  for (int c = 0; c < plain_channels; ++c)
-    sources.push_back({&image, c, has_alpha ? plain_channels : -1, curve});
-  if (has_alpha) {
+  for (int c = 0; c < plain_channels; ++c) sources.push_back({&image, c, alpha ? plain_channels : -1, curve});
+  if (alpha) {
     Curve plain;
     plain.scale = 255.0 * weight_of(Role::data);
     sources.push_back({&image, plain_channels, -1, plain});

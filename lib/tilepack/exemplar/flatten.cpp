@@ -25,8 +25,8 @@ class Reading {
 public:
   explicit Reading(const SampleMap& map) : channels(map.image.channels()) {
     if (map.role == Role::height) return;
-    weighted = channels % 2 == 0;
-    channels -= weighted ? 1 : 0;
+    weighted = has_alpha(map.role, channels);
+    channels = color_channels(channels);
     decode = map.encoding == Encoding::srgb;
     if (decode && map.depth == Depth::u8) top = 255;
     if (decode && map.depth == Depth::u16) top = 65535;

@@ -41,7 +41,7 @@ int shrink_of(const Image& image) {
 // Sums of shrink × shrink blocks of every channel that is not alpha, scaled to 0..1023 (HDR by its maximum).
 std::vector<Plane> shrunken_channels(const Image& image) {
   const int shrink = shrink_of(image);
-  const int channels = image.channels() % 2 == 0 ? image.channels() - 1 : image.channels();
+  const int channels = color_channels(image.channels());
   float top = 1.0f;
   for (const float v : image.data()) top = std::max(top, v);
   const float scale = 1023.0f / (top * static_cast<float>(shrink * shrink));

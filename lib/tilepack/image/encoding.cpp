@@ -96,22 +96,4 @@ Image quantised(Image image, Depth depth) {
   return image;
 }
 
-std::string_view name_of(Encoding encoding) {
-  return encoding == Encoding::srgb ? "srgb" : "linear";
-}
-
-std::string_view name_of(Depth depth) {
-  switch (depth) {
-  case Depth::u8:
-    return "u8";
-  case Depth::u16:
-    return "u16";
-  case Depth::f16:
-    return "f16";
-  case Depth::f32:
-    break;
-  }
-  return "f32";
-}
-
 } // namespace tilepack

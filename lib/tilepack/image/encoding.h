@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/image.h"
+#include "tilepack/numeric/enum_names.h"
 
 #include <span>
 #include <string_view>
@@ -47,8 +48,13 @@ inline int code_of(float value, int top) {
   return static_cast<int>(static_cast<double>(value) * top + 0.5);
 }
 
-/// Names as they stand in pack.json and options: "srgb", "linear"; "u8", "u16", "f16", "f32".
-std::string_view name_of(Encoding encoding);
-std::string_view name_of(Depth depth);
+/// Names as they stand in pack.json and options.
+template <>
+inline constexpr auto enum_names<Encoding> =
+    std::array{EnumName{Encoding::srgb, "srgb"}, EnumName{Encoding::linear, "linear"}};
+template <>
+inline constexpr auto enum_names<Depth> =
+    std::array{EnumName{Depth::u8, "u8"}, EnumName{Depth::u16, "u16"}, EnumName{Depth::f16, "f16"},
+               EnumName{Depth::f32, "f32"}};
 
 } // namespace tilepack

@@ -64,25 +64,6 @@ AxisTaps taps(double position, int side, ResampleFilter filter) {
 
 } // namespace
 
-std::string_view name_of(ResampleFilter filter) {
-  switch (filter) {
-  case ResampleFilter::bilinear:
-    return "bilinear";
-  case ResampleFilter::bicubic:
-    return "bicubic";
-  case ResampleFilter::lanczos:
-    break;
-  }
-  return "lanczos";
-}
-
-std::optional<ResampleFilter> resample_filter_named(std::string_view name) {
-  for (const ResampleFilter filter :
-       {ResampleFilter::bilinear, ResampleFilter::bicubic, ResampleFilter::lanczos})
-    if (name == name_of(filter)) return filter;
-  return {};
-}
-
 int filter_reach(ResampleFilter filter) {
   switch (filter) {
   case ResampleFilter::bilinear:

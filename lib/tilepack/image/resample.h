@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/image.h"
+#include "tilepack/numeric/enum_names.h"
 
 #include <optional>
 #include <span>
@@ -15,8 +16,10 @@ enum class ResampleFilter {
   lanczos,  ///< 6 × 6, sinc windowed by its own central lobe
 };
 
-std::string_view name_of(ResampleFilter filter); ///< "bilinear", "bicubic", "lanczos"
-std::optional<ResampleFilter> resample_filter_named(std::string_view name);
+template <>
+inline constexpr auto enum_names<ResampleFilter> =
+    std::array{EnumName{ResampleFilter::bilinear, "bilinear"}, EnumName{ResampleFilter::bicubic, "bicubic"},
+               EnumName{ResampleFilter::lanczos, "lanczos"}};
 
 /// Taps on either side of a place, per axis: 1, 2 or 3.
 int filter_reach(ResampleFilter filter);

@@ -1,7 +1,5 @@
 #include "tilepack/image/stored_format.h"
 
-#include <fmt/format.h>
-
 namespace tilepack {
 
 bool holds(ImageContainer container, Depth depth) {
@@ -17,15 +15,9 @@ StoredFormat usual_format(Depth depth, Encoding encoding) {
   return {container, depth, encoding, container == ImageContainer::exr};
 }
 
-std::string_view name_of(ImageContainer container) {
-  return container == ImageContainer::png ? "png" : "exr";
-}
-
 std::optional<ImageContainer> container_by_name(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
-  for (const ImageContainer container : {ImageContainer::png, ImageContainer::exr})
-    if (ending == fmt::format(".{}", name_of(container))) return container;
-  return {};
+  return ending.empty() ? std::nullopt : enum_named<ImageContainer>(std::string_view(ending).substr(1));
 }
 
 } // namespace tilepack

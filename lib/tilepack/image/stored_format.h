@@ -38,8 +38,10 @@ ImageContainer usual_container(Depth depth);
 /// An image of `depth` and `encoding` in the usual container of the depth, alpha as others expect it there.
 StoredFormat usual_format(Depth depth, Encoding encoding);
 
-/// The ending of file names, without the dot, which is also the name in options: "png", "exr".
-std::string_view name_of(ImageContainer container);
+/// The endings of file names, without the dot, which are also the names in options.
+template <>
+inline constexpr auto enum_names<ImageContainer> =
+    std::array{EnumName{ImageContainer::png, "png"}, EnumName{ImageContainer::exr, "exr"}};
 
 /// The kind of file that a name asks for by its ending, in lower case; unset: none that is written.
 std::optional<ImageContainer> container_by_name(const std::filesystem::path& file);

@@ -1,6 +1,7 @@
 #include "tilepack/layout/array_layout.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +10,12 @@
 namespace tilepack {
 
 Layout array_layout(int tiles, Size tile_size, int border) {
-  constexpr int most_layers = 65536;
-  if (tiles < 1 || tiles > most_layers)
-    throw Error(ErrorKind::usage, "layout array", fmt::format("{} tiles; 1 to {}", tiles, most_layers));
+  if (tiles < 1 || tiles > limits::most_tiles)
+    throw Error(ErrorKind::usage, "layout array",
+                fmt::format("{} tiles; 1 to {}", tiles, limits::most_tiles));
   const int half = std::min(tile_size.width, tile_size.height) / 2;
   if (border < 0 || border > half || (border & (border - 1)) != 0)
-    throw Error(ErrorKind::usage, "--border",
+    throw Error(ErrorKind::usage, field("border"),
                 fmt::format("{} texels; 0 or a power of two up to half the tile, {}", border, half));
   Layout layout;
   layout.kind = LayoutKind::array;

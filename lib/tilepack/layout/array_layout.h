@@ -20,7 +20,7 @@ namespace tilepack {
 /// With borders, bilinear filtering at a tile's border reads them instead of being clamped. All layers halve
 /// from level to level, and so does the border; the levels end with a border of one texel. `border` is 0 or a
 /// power of two, at most half the shorter side of the tile; Error (usage) otherwise, or for a tile count
-/// outside 1..65536.
+/// outside 1..limits::most_tiles.
 Layout array_layout(int tiles, Size tile_size, int border);
 
 } // namespace tilepack

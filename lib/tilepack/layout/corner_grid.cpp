@@ -2,27 +2,22 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/layout/tile_index.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
 #include <cstddef>
 
 namespace tilepack {
-namespace {
-
-constexpr int max_edge_colors = 8;
-
-} // namespace
-
 CornerCell corner_cell(int left, int right, int up, int down) {
   return {tile_index_1d(left, right), tile_index_1d(up, down)};
 }
 
 CornerGrid corner_grid(int horizontal_colors, int vertical_colors) {
   for (const int colors : {horizontal_colors, vertical_colors})
-    if (colors < 1 || colors > max_edge_colors)
+    if (colors < 1 || colors > limits::most_edge_colors)
       throw Error(ErrorKind::usage, "corner pack",
-                  fmt::format("{} edge colors; 1 to {}", colors, max_edge_colors));
+                  fmt::format("{} edge colors; 1 to {}", colors, limits::most_edge_colors));
   CornerGrid grid{horizontal_colors * horizontal_colors, vertical_colors * vertical_colors, {}};
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {

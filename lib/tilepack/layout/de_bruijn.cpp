@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/layout/tile_index.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@
 
 namespace tilepack {
 namespace {
-
-constexpr int max_corner_colors = 4;
 
 // Odd K. Let s be the cyclic sequence of the first colors of TileIndex1D: each ordered pair of colors occurs
 // in it once, as neighbours. Every column is s shifted, and the shift from column c to c + 1 is c:
@@ -49,9 +48,9 @@ int de_bruijn_color(int corner_colors, int column, int row) {
   case 4:
     return quaternary_color(column, row);
   default:
-    throw Error(
-        ErrorKind::usage, "layout de-bruijn",
-        fmt::format("{} corner colors; 1 to {} have a stored torus", corner_colors, max_corner_colors));
+    throw Error(ErrorKind::usage, "layout de-bruijn",
+                fmt::format("{} corner colors; 1 to {} have a stored torus", corner_colors,
+                            limits::most_corner_colors));
   }
 }
 
@@ -59,9 +58,10 @@ Layout de_bruijn_layout(const std::vector<CornerTile>& complete_set) {
   int colors = 0;
   for (const CornerTile& tile : complete_set)
     for (const int color : {tile.nw, tile.ne, tile.sw, tile.se}) {
-      if (color < 0 || color >= max_corner_colors)
-        throw Error(ErrorKind::usage, "layout de-bruijn",
-                    fmt::format("corner color {}; colors are 0 to {} here", color, max_corner_colors - 1));
+      if (color < 0 || color >= limits::most_corner_colors)
+        throw Error(
+            ErrorKind::usage, "layout de-bruijn",
+            fmt::format("corner color {}; colors are 0 to {} here", color, limits::most_corner_colors - 1));
       colors = std::max(colors, color + 1);
     }
   const int side = colors * colors;

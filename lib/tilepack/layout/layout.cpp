@@ -9,32 +9,6 @@
 
 namespace tilepack {
 
-std::string_view name_of(LayoutKind kind) {
-  switch (kind) {
-  case LayoutKind::tile_index:
-    return "tile-index";
-  case LayoutKind::de_bruijn:
-    return "de-bruijn";
-  case LayoutKind::rotated:
-    return "rotated";
-  case LayoutKind::array:
-    break;
-  }
-  return "array";
-}
-
-std::string_view name_of(Matching matching) {
-  switch (matching) {
-  case Matching::found:
-    return "found";
-  case Matching::none:
-    return "none";
-  case Matching::not_found:
-    break;
-  }
-  return "not-found";
-}
-
 namespace {
 
 // Axes of a rotated layout's cell in texels of a texture of this size, and the part of it that the tile

@@ -2,6 +2,7 @@
 
 #include "tilepack/image/image.h"
 #include "tilepack/layout/rotated_scheme.h"
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/tileset/tile_colors.h"
 
 #include <cstdint>
@@ -17,8 +18,10 @@ enum class LayoutKind {
   array,      ///< one tile a layer of a texture array (array_layout.h)
 };
 
-/// As in pack.json and options: "tile-index", "de-bruijn", "rotated", "array".
-std::string_view name_of(LayoutKind kind);
+template <>
+inline constexpr auto enum_names<LayoutKind> =
+    std::array{EnumName{LayoutKind::tile_index, "tile-index"}, EnumName{LayoutKind::de_bruijn, "de-bruijn"},
+               EnumName{LayoutKind::rotated, "rotated"}, EnumName{LayoutKind::array, "array"}};
 
 /// Where a tile sits in a grid of equal cells.
 struct Cell {
@@ -35,8 +38,10 @@ enum class Matching {
   not_found, ///< the search ended at its limit
 };
 
-/// As in pack.json: "found", "none", "not-found".
-std::string_view name_of(Matching matching);
+template <>
+inline constexpr auto enum_names<Matching> =
+    std::array{EnumName{Matching::found, "found"}, EnumName{Matching::none, "none"},
+               EnumName{Matching::not_found, "not-found"}};
 
 /// What a rotated layout adds: the scheme, and the texture it fills.
 struct RotatedGrid {

@@ -20,14 +20,14 @@ std::vector<RotatedScheme> wanted_schemes(const LayoutRequest& request) {
         ErrorKind::usage, "layout rotated",
         fmt::format(
             "no scheme packs {} tiles without waste; the next counts that have one are {} and {}, and "
-            "--layout array holds any",
-            request.tiles, next.below, next.above));
+            "{} holds any",
+            request.tiles, next.below, next.above, field("layout", "array")));
   }
   if (!request.scheme) return schemes;
   if (std::find(schemes.begin(), schemes.end(), *request.scheme) == schemes.end()) {
     std::string known;
     for (const RotatedScheme& scheme : schemes) known += (known.empty() ? "" : ", ") + formula(scheme);
-    throw Error(ErrorKind::usage, "--scheme",
+    throw Error(ErrorKind::usage, field("scheme"),
                 fmt::format("{} does not hold {} tiles; these do: {}", formula(*request.scheme),
                             request.tiles, known));
   }

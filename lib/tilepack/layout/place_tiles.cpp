@@ -23,16 +23,6 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-// Do the colors of neighbours agree all over the torus?
-bool colors_match(const TileColors& tiles, const std::vector<Surroundings>& packed) {
-  const std::vector<BorderColors> borders = border_colors(tiles);
-  for (std::size_t id = 0; id < packed.size(); ++id)
-    if (borders[id].east != borders[index(packed[id].e)].west ||
-        borders[id].south != borders[index(packed[id].s)].north)
-      return false;
-  return true;
-}
-
 std::vector<Surroundings> chosen_surroundings(const TileColors& colors, const Layout& layout,
                                               Outside outside) {
   if (outside == Outside::own) return {};

@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/layout/rotated_lattice.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -9,19 +10,13 @@
 #include <cstdint>
 
 namespace tilepack {
-namespace {
-
-constexpr int longest_side = 65536;
-constexpr int longest_tile_side = 4096;
-
-} // namespace
 
 Size rotated_texture_size(const RotatedScheme& scheme, const RotatedTexture& texture) {
-  if (texture.tile_side < 1 || texture.tile_side > longest_tile_side)
+  if (texture.tile_side < 1 || texture.tile_side > limits::largest_tile_side)
     throw Error(ErrorKind::usage, "layout rotated",
-                fmt::format("tile side {}; 1 to {} texels", texture.tile_side, longest_tile_side));
+                fmt::format("tile side {}; 1 to {} texels", texture.tile_side, limits::largest_tile_side));
   if (texture.gutter < 0 || texture.gutter > texture.tile_side)
-    throw Error(ErrorKind::usage, "--gutter",
+    throw Error(ErrorKind::usage, field("gutter"),
                 fmt::format("{} texels; 0 to the tile's side, {}", texture.gutter, texture.tile_side));
   const std::int64_t cell = texture.tile_side + 2 * texture.gutter;
   const std::int64_t area = cell * cell * (scheme.n * scheme.n + scheme.k * scheme.k);
@@ -33,11 +28,12 @@ Size rotated_texture_size(const RotatedScheme& scheme, const RotatedTexture& tex
     while (power < side) power *= 2;
     side = power;
   }
-  if (side * scheme.squares > longest_side)
+  if (side * scheme.squares > limits::longest_texture_side)
     throw Error(ErrorKind::usage, "layout rotated",
                 fmt::format("{} tiles of {} texels a side need a texture {} texels wide; at most {}, so take "
                             "smaller tiles or fewer",
-                            tile_count(scheme), texture.tile_side, side * scheme.squares, longest_side));
+                            tile_count(scheme), texture.tile_side, side * scheme.squares,
+                            limits::longest_texture_side));
   return {static_cast<int>(side) * scheme.squares, static_cast<int>(side)};
 }
 

@@ -15,7 +15,7 @@ struct RotatedTexture {
 
 /// The smallest texture that holds the tiles of `scheme` no smaller than they are, in texels of level 0:
 /// whole sides, so stored tiles are up to a texel larger; powers of two if asked. Throws Error (usage) for
-/// numbers out of range or a side over 65536.
+/// numbers out of range or a side over limits::longest_texture_side.
 Size rotated_texture_size(const RotatedScheme& scheme, const RotatedTexture& texture);
 
 /// Tile number arrangement[site] on each site of the scheme (see RotatedLattice). Every tile of

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/tileset/limits.h"
+
 #include <string>
 #include <vector>
 
@@ -29,7 +31,7 @@ constexpr int tile_count(const RotatedScheme& scheme) {
 }
 
 /// Tile counts considered: 1..max_rotated_tiles.
-inline constexpr int max_rotated_tiles = 65536;
+inline constexpr int max_rotated_tiles = limits::most_scheme_tiles;
 
 /// All schemes of exactly `tiles` tiles, square textures first, then by falling n. Empty if there is none:
 /// where a prime that is 3 mod 4 divides `tiles` an odd number of times. Throws Error (usage) outside

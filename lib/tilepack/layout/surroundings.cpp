@@ -69,6 +69,15 @@ std::vector<Surroundings> packed_surroundings(const Layout& rotated) {
   return result;
 }
 
+bool colors_match(const TileColors& tiles, const std::vector<Surroundings>& packed) {
+  const std::vector<BorderColors> borders = border_colors(tiles);
+  for (std::size_t id = 0; id < packed.size(); ++id)
+    if (borders[id].east != borders[index(packed[id].e)].west ||
+        borders[id].south != borders[index(packed[id].s)].north)
+      return false;
+  return true;
+}
+
 std::vector<Image> with_margin(const std::vector<Image>& tiles, const std::vector<Surroundings>& surroundings,
                                int margin) {
   std::vector<Image> result(tiles.size());

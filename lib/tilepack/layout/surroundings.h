@@ -28,6 +28,9 @@ std::vector<Surroundings> fitting_surroundings(const TileColors& tiles);
 /// match.
 std::vector<Surroundings> packed_surroundings(const Layout& rotated);
 
+/// Whether the colors of neighbours agree on all borders of such a torus.
+bool colors_match(const TileColors& tiles, const std::vector<Surroundings>& packed);
+
 /// Each tile with `margin` texels more on every side, taken from its surroundings; where a tile is lacking,
 /// and beyond one tile, the nearest texel at hand is repeated. No surroundings at all: own texels only.
 std::vector<Image> with_margin(const std::vector<Image>& tiles, const std::vector<Surroundings>& surroundings,

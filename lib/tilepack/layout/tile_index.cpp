@@ -1,18 +1,13 @@
 #include "tilepack/layout/tile_index.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace tilepack {
-namespace {
-
-constexpr int max_edge_colors = 8;
-
-} // namespace
-
 // The strip is an Euler circuit of the complete directed graph on the colors (loops included), so that every
 // pair (a, b) is walked once. Color m adds to the circuit of the colors below it the detour
 //
@@ -42,9 +37,10 @@ Layout tile_index_layout(const std::vector<EdgeTile>& complete_set) {
   int vertical = 0;
   for (const EdgeTile& tile : complete_set) {
     for (const int color : {tile.north, tile.east, tile.south, tile.west})
-      if (color < 0 || color >= max_edge_colors)
-        throw Error(ErrorKind::usage, "layout tile-index",
-                    fmt::format("edge color {}; colors are 0 to {} here", color, max_edge_colors - 1));
+      if (color < 0 || color >= limits::most_edge_colors)
+        throw Error(
+            ErrorKind::usage, "layout tile-index",
+            fmt::format("edge color {}; colors are 0 to {} here", color, limits::most_edge_colors - 1));
     horizontal = std::max({horizontal, tile.north + 1, tile.south + 1});
     vertical = std::max({vertical, tile.west + 1, tile.east + 1});
   }

@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/tileset/border_colors.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -14,9 +15,6 @@
 
 namespace tilepack {
 namespace {
-
-constexpr std::int64_t longest_side = 65536;
-constexpr std::int64_t most_cells = std::int64_t{1} << 26;
 
 // Rows before the last from which on a row's south colors must be able to reach the first row's north colors.
 constexpr int horizon = 32;
@@ -179,13 +177,13 @@ private:
 } // namespace
 
 Mapping filled_index_mapping(VirtualSize size, const TileColors& tiles, std::uint64_t seed) {
-  if (size.width < 1 || size.height < 1 || size.width > longest_side || size.height > longest_side ||
-      size.width * size.height > most_cells)
+  if (size.width < 1 || size.height < 1 || size.width > limits::longest_index_side ||
+      size.height > limits::longest_index_side || size.width * size.height > limits::most_index_cells)
     throw Error(
-        ErrorKind::usage, "--virtual-size",
+        ErrorKind::usage, field("virtual-size"),
         fmt::format("{}x{} tiles can't be an index map; each side must be 1 to {}, and there may be {} "
                     "cells in all",
-                    size.width, size.height, longest_side, most_cells));
+                    size.width, size.height, limits::longest_index_side, limits::most_index_cells));
   std::optional<std::vector<int>> ids;
   if (tile_count(tiles) > 0) ids = Filler(size, tiles, seed).run();
   if (!ids)

@@ -1,21 +1,21 @@
 #include "tilepack/mapping/index_json.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
 namespace tilepack {
 
 std::string index_map_json(const Mapping& mapping) {
-  constexpr std::int64_t most_cells = std::int64_t{1} << 20;
   if (mapping.kind != MappingKind::index)
-    throw Error(ErrorKind::usage, "--index-map",
+    throw Error(ErrorKind::usage, field("index-map"),
                 fmt::format("the pack's mapping is '{}'; only an index mapping is a stored map",
                             name_of(mapping.kind)));
-  if (mapping.size.width * mapping.size.height > most_cells)
-    throw Error(ErrorKind::usage, "--index-map",
+  if (mapping.size.width * mapping.size.height > limits::most_index_cells_as_json)
+    throw Error(ErrorKind::usage, field("index-map"),
                 fmt::format("{} x {} cells; at most {} are written as JSON, the image holds them all",
-                            mapping.size.width, mapping.size.height, most_cells));
+                            mapping.size.width, mapping.size.height, limits::most_index_cells_as_json));
   std::string text = fmt::format("{{\n  \"virtual_size\": [{}, {}],\n  \"tiles\": [", mapping.size.width,
                                  mapping.size.height);
   std::size_t cell = 0;

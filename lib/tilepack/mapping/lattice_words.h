@@ -2,6 +2,7 @@
 
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/mix_hash.h"
+#include "tilepack/numeric/enum_names.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,11 @@ namespace tilepack {
 
 /// What a mapping computes a cell's tile from; see mapping.h.
 enum class MappingKind { permutation, mix, even, index };
+
+template <>
+inline constexpr auto enum_names<MappingKind> =
+    std::array{EnumName{MappingKind::permutation, "permutation"}, EnumName{MappingKind::mix, "mix"},
+               EnumName{MappingKind::even, "even"}, EnumName{MappingKind::index, "index"}};
 
 /// A mapping as words of 32 bits, and the colors of the lattice that follow from them: the formulas of
 /// mapping.h, written once for every lookup, on the CPU and in a shader.

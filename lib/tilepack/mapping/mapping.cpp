@@ -5,6 +5,7 @@
 #include "tilepack/mapping/mix_hash.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/numeric/wrap.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -16,32 +17,14 @@
 namespace tilepack {
 namespace {
 
-constexpr std::int64_t longest_side = std::int64_t{1} << 31;
-constexpr std::int64_t longest_permutation_side = 4096;
-constexpr std::int64_t most_index_cells = std::int64_t{1} << 26;
-
 void check_size(VirtualSize size, std::int64_t longest, const char* way_out) {
   if (size.width < 1 || size.height < 1 || size.width > longest || size.height > longest)
-    throw Error(ErrorKind::usage, "--virtual-size",
+    throw Error(ErrorKind::usage, field("virtual-size"),
                 fmt::format("{}x{} tiles is out of range; each side must be 1 to {}{}", size.width,
                             size.height, longest, way_out));
 }
 
 } // namespace
-
-std::string_view name_of(MappingKind kind) {
-  switch (kind) {
-  case MappingKind::permutation:
-    return "permutation";
-  case MappingKind::mix:
-    return "mix";
-  case MappingKind::even:
-    return "even";
-  case MappingKind::index:
-    break;
-  }
-  return "index";
-}
 
 std::vector<int> permutation_table(int length, std::uint64_t seed) {
   std::vector<int> table(static_cast<std::size_t>(length));
@@ -55,7 +38,7 @@ std::vector<int> permutation_table(int length, std::uint64_t seed) {
 }
 
 Mapping permutation_mapping(VirtualSize size, const ColorCounts& colors, std::uint64_t seed) {
-  check_size(size, longest_permutation_side, "; for a larger texture take the mapping \"mix\"");
+  check_size(size, limits::longest_permutation_side_made, "; for a larger texture take the mapping \"mix\"");
   std::int64_t unit = 1;
   for (const int count : {colors.horizontal, colors.vertical, colors.corner})
     if (count > 0) unit = std::lcm(unit, static_cast<std::int64_t>(count));
@@ -70,7 +53,7 @@ Mapping permutation_mapping(VirtualSize size, const ColorCounts& colors, std::ui
 }
 
 Mapping mix_mapping(VirtualSize size, std::uint64_t seed) {
-  check_size(size, longest_side, "");
+  check_size(size, limits::longest_virtual_side, "");
   Mapping mapping;
   mapping.kind = MappingKind::mix;
   mapping.size = size;
@@ -79,10 +62,10 @@ Mapping mix_mapping(VirtualSize size, std::uint64_t seed) {
 }
 
 Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed) {
-  check_size(size, longest_side, "");
+  check_size(size, limits::longest_virtual_side, "");
   if (!has_even_pattern(corners))
     throw Error(
-        ErrorKind::usage, "--mapping",
+        ErrorKind::usage, field("mapping"),
         fmt::format("'even' has patterns for 2 to 4 corner colors, not for {}; take the mapping \"mix\"",
                     corners == 0 ? std::string("edge colors") : std::to_string(corners)));
   Mapping mapping;
@@ -94,12 +77,12 @@ Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed) {
 }
 
 Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors) {
-  check_size(mapping.size, longest_side, "");
-  if (mapping.size.width > most_index_cells / mapping.size.height)
-    throw Error(ErrorKind::usage, "--virtual-size",
+  check_size(mapping.size, limits::longest_virtual_side, "");
+  if (mapping.size.width > limits::most_index_cells / mapping.size.height)
+    throw Error(ErrorKind::usage, field("virtual-size"),
                 fmt::format("an index map of {}x{} tiles is too large to store; up to {} cells are, or take "
                             "the mapping \"mix\"",
-                            mapping.size.width, mapping.size.height, most_index_cells));
+                            mapping.size.width, mapping.size.height, limits::most_index_cells));
   Mapping index;
   index.kind = MappingKind::index;
   index.size = mapping.size;

@@ -9,7 +9,6 @@
 
 namespace tilepack {
 
-std::string_view name_of(MappingKind kind); ///< "permutation", "mix", "even", "index"
 
 /// The virtual texture's size in tiles, each side 1..2^31. It wraps.
 struct VirtualSize {

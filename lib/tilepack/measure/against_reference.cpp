@@ -1,6 +1,6 @@
 #include "tilepack/measure/against_reference.h"
 
-#include "tilepack/measure/image_metrics.h"
+#include "tilepack/image/peak_to_noise.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/sampler/ground_truth.h"
@@ -77,7 +77,7 @@ private:
 
   // In 8-bit units of the encoded value; alpha, the last of 2 or 4, is not encoded.
   double encoded(double linear, std::size_t channel) const {
-    const bool light = channels() % 2 == 1 || channel + 1 < channels();
+    const bool light = static_cast<int>(channel) < color_channels(map.channels);
     return 255.0 * (map.encoding == Encoding::srgb && light ? linear_to_srgb(linear) : linear);
   }
 
@@ -117,7 +117,7 @@ ZoneError Comparison::zone_error(int level, Zone zone, int lookups, std::uint64_
   error.mean = sum / count;
   error.rms = std::sqrt(squares / count);
   constexpr double rounding = 1e-9; // what sums of doubles in another order differ by, in 8-bit units
-  if (error.rms > rounding) error.psnr = psnr_of(255, error.rms);
+  if (error.rms > rounding) error.psnr = peak_to_noise(255.0, error.rms);
   return error;
 }
 
@@ -146,18 +146,6 @@ double Comparison::jump(int level, bool corners, int lookups, std::uint64_t seed
 }
 
 } // namespace
-
-std::string_view name_of(Zone zone) {
-  switch (zone) {
-  case Zone::interior:
-    return "interior";
-  case Zone::edge:
-    return "edge";
-  case Zone::corner:
-    break;
-  }
-  return "corner";
-}
 
 ReferenceErrors against_reference(const Pack& pack, int map, int lookups, std::uint64_t seed,
                                   const Progress& progress) {

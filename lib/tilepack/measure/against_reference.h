@@ -2,6 +2,7 @@
 
 #include "tilepack/error/progress.h"
 #include "tilepack/json/json_value.h"
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/pack/pack.h"
 
 #include <cstdint>
@@ -16,7 +17,9 @@ namespace tilepack {
 /// two.
 enum class Zone { interior, edge, corner };
 
-std::string_view name_of(Zone zone); ///< "interior", "edge", "corner"
+template <>
+inline constexpr auto enum_names<Zone> = std::array{
+    EnumName{Zone::interior, "interior"}, EnumName{Zone::edge, "edge"}, EnumName{Zone::corner, "corner"}};
 
 /// How far bilinear lookups through the pack are from the ground truth, in one zone of one level.
 ///

@@ -1,6 +1,7 @@
 #include "tilepack/measure/image_metrics.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/image/peak_to_noise.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -162,10 +163,6 @@ double structural_similarity(const Image& a, const Image& b, double peak) {
   return sum / (static_cast<double>(wide) * high * a.channels());
 }
 
-std::optional<double> psnr_of(double peak, double rms) {
-  return rms > 0 ? std::optional(20 * std::log10(peak / rms)) : std::nullopt;
-}
-
 ImageDifference difference(const Image& a, const Image& b, ValueRange range, double scale) {
   require_same_shape(a, b);
   ImageDifference result;
@@ -197,7 +194,7 @@ ImageDifference difference(const Image& a, const Image& b, ValueRange range, dou
   const double values = static_cast<double>(std::max<std::int64_t>(1, all.values));
   result.mean = all.absolute / values * scale;
   result.rms = std::sqrt(all.squared / values) * scale;
-  result.psnr = psnr_of(result.peak * scale, result.rms);
+  result.psnr = peak_to_noise(result.peak * scale, result.rms);
   result.ssim = structural_similarity(a, b, result.peak);
   return result;
 }

@@ -27,12 +27,6 @@ struct ImageDifference {
                    ///< either image (1 if both are 0)
 };
 
-/// Peak signal to noise ratio, dB: 20 log10(peak / rms), both in one unit. Absent where rms is 0: infinite.
-///
-/// For reports. What goes into a pack is found by peak_to_noise() of bake/round_trip.h, which rounds and keeps
-/// the same bits on every processor.
-std::optional<double> psnr_of(double peak, double rms);
-
 enum class ValueRange {
   unit,      ///< integers, normalised to 0..1
   unbounded, ///< half and float

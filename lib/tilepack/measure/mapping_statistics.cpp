@@ -3,7 +3,9 @@
 #include "tilepack/error/error.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/measure/longest_repeat.h"
+#include "tilepack/numeric/grid.h"
 #include "tilepack/numeric/random.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -19,27 +21,20 @@ namespace {
 // The values of one family over the window, row by row.
 struct Field {
   std::string name;
-  int width = 0;
-  int height = 0;
   int values = 0; // 0..values-1
   double bits_a_cell_in_rows = 0;
   double bits_a_cell_in_columns = 0;
-  std::vector<int> cells;
-
-  int at(int x, int y) const {
-    return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
+  Grid<int> cells;
 };
 
 Field field(std::string name, VirtualSize window, int values, const std::function<int(int, int)>& value_at) {
   Field f;
   f.name = std::move(name);
-  f.width = static_cast<int>(window.width);
-  f.height = static_cast<int>(window.height);
+  f.cells = Grid<int>(static_cast<int>(window.width), static_cast<int>(window.height));
   f.values = values;
   f.bits_a_cell_in_rows = f.bits_a_cell_in_columns = std::log2(values);
-  for (int y = 0; y < f.height; ++y)
-    for (int x = 0; x < f.width; ++x) f.cells.push_back(value_at(x, y));
+  for (int y = 0; y < f.cells.height; ++y)
+    for (int x = 0; x < f.cells.width; ++x) f.cells.at(x, y) = value_at(x, y);
   return f;
 }
 
@@ -75,9 +70,9 @@ std::vector<Field> fields(const Mapping& m, const ColorCounts& colors, VirtualSi
 
 void count_values(const Field& f, FamilyStatistics& s) {
   s.counts.assign(static_cast<std::size_t>(f.values), 0);
-  for (const int v : f.cells) ++s.counts[static_cast<std::size_t>(v)];
+  for (const int v : f.cells.values) ++s.counts[static_cast<std::size_t>(v)];
   s.degrees = f.values - 1;
-  const double expected = static_cast<double>(f.cells.size()) / f.values;
+  const double expected = static_cast<double>(f.cells.values.size()) / f.values;
   for (const std::int64_t count : s.counts) {
     const double off = static_cast<double>(count) - expected;
     s.chi_square += off * off / expected;
@@ -94,9 +89,9 @@ PairCorrelation pairs_at(const Field& f, int lag, int dx, int dy) {
   const int sy = lag * dy;
   std::int64_t equal = 0;
   std::int64_t pairs = 0;
-  for (int y = std::max(0, -sy); y < std::min(f.height, f.height - sy); ++y)
-    for (int x = 0; x < f.width - sx; ++x) {
-      equal += f.at(x, y) == f.at(x + sx, y + sy);
+  for (int y = std::max(0, -sy); y < std::min(f.cells.height, f.cells.height - sy); ++y)
+    for (int x = 0; x < f.cells.width - sx; ++x) {
+      equal += f.cells.at(x, y) == f.cells.at(x + sx, y + sy);
       ++pairs;
     }
   PairCorrelation c;
@@ -110,7 +105,9 @@ PairCorrelation pairs_at(const Field& f, int lag, int dx, int dy) {
 }
 
 PairCorrelation worst_pairs(const Field& f, int dx, int dy) {
-  const int reach = dx == 0 ? f.height : dy == 0 ? f.width : std::min(f.width, f.height);
+  const int reach = dx == 0   ? f.cells.height
+                    : dy == 0 ? f.cells.width
+                              : std::min(f.cells.width, f.cells.height);
   PairCorrelation worst;
   worst.expected = 1.0 / f.values;
   for (int lag = 1; lag <= reach / 2; ++lag) {
@@ -121,7 +118,7 @@ PairCorrelation worst_pairs(const Field& f, int dx, int dy) {
 }
 
 int period(const Field& f, int dx, int dy) {
-  const int reach = dx > 0 ? f.width : f.height;
+  const int reach = dx > 0 ? f.cells.width : f.cells.height;
   for (int lag = 1; lag <= reach / 2; ++lag)
     if (pairs_at(f, lag, dx, dy).equal == 1.0) return lag;
   return 0;
@@ -129,12 +126,12 @@ int period(const Field& f, int dx, int dy) {
 
 // All rows (or columns) end to end, each closed by a value of its own so that no run crosses an end.
 RepeatedRun longest_run(const Field& f, bool in_rows) {
-  const int lines = in_rows ? f.height : f.width;
-  const int length = in_rows ? f.width : f.height;
+  const int lines = in_rows ? f.cells.height : f.cells.width;
+  const int length = in_rows ? f.cells.width : f.cells.height;
   std::vector<int> text;
-  text.reserve(f.cells.size() + static_cast<std::size_t>(lines));
+  text.reserve(f.cells.values.size() + static_cast<std::size_t>(lines));
   for (int line = 0; line < lines; ++line) {
-    for (int i = 0; i < length; ++i) text.push_back(in_rows ? f.at(i, line) : f.at(line, i));
+    for (int i = 0; i < length; ++i) text.push_back(in_rows ? f.cells.at(i, line) : f.cells.at(line, i));
     text.push_back(f.values + line);
   }
   const LongestRepeat repeat = longest_repeat(text);
@@ -142,7 +139,7 @@ RepeatedRun longest_run(const Field& f, bool in_rows) {
   run.length = repeat.length;
   // Among N places there are N²/2 pairs, and each goes on for L cells with probability 2^(-bits L).
   const double bits = in_rows ? f.bits_a_cell_in_rows : f.bits_a_cell_in_columns;
-  const double places = static_cast<double>(f.cells.size());
+  const double places = static_cast<double>(f.cells.values.size());
   run.by_chance = bits > 0 ? std::min<double>(length, (2 * std::log2(places) - 1) / bits) : length;
   for (int k = 0; k < 2; ++k) {
     const int line = repeat.start[k] / (length + 1);
@@ -236,9 +233,10 @@ Image mapping_picture(const Mapping& mapping, const ColorCounts& colors, int sid
 }
 
 Mapping permutation_mapping_of_length(VirtualSize size, int length, std::uint64_t seed) {
-  if (length < 1 || length > 1 << 20)
-    throw Error(ErrorKind::usage, "table length",
-                fmt::format("{} is out of range; a table has 1 to {} entries", length, 1 << 20));
+  if (length < 1 || length > limits::longest_table)
+    throw Error(
+        ErrorKind::usage, "table length",
+        fmt::format("{} is out of range; a table has 1 to {} entries", length, limits::longest_table));
   Mapping mapping;
   mapping.kind = MappingKind::permutation;
   mapping.size = size;

@@ -66,7 +66,7 @@ MappingStatistics mapping_statistics(const Mapping& mapping, const ColorCounts& 
 Image mapping_picture(const Mapping& mapping, const ColorCounts& colors, int side);
 
 /// The mapping of the paper with a shuffled table of `length` entries, whatever the size asks for: for
-/// comparing table sizes. length 1..2^20.
+/// comparing table sizes. length 1..limits::longest_table.
 Mapping permutation_mapping_of_length(VirtualSize size, int length, std::uint64_t seed);
 
 } // namespace tilepack

@@ -108,7 +108,7 @@ TileSides sides_of(const std::vector<Image>& tiles, Side side) {
 std::map<int, std::vector<int>> tiles_by_facing_color(const Pack& pack, Side side) {
   std::map<int, std::vector<int>> tiles;
   for (int i = 0; i < tile_count(pack.tiles); ++i)
-    tiles[border_key(pack.tiles, pack.colors, i, facing(side))].push_back(i);
+    tiles[border_key(pack.tiles, i, facing(side))].push_back(i);
   return tiles;
 }
 
@@ -161,7 +161,7 @@ SeamFigures seam_figures(const Pack& pack, int map, int level, int list) {
     const auto by_color = tiles_by_facing_color(pack, side);
     std::vector<Found> found(tiles.size());
     tbb::parallel_for(0, static_cast<int>(tiles.size()), [&](int i) {
-      const auto neighbours = by_color.find(border_key(pack.tiles, pack.colors, i, side));
+      const auto neighbours = by_color.find(border_key(pack.tiles, i, side));
       if (neighbours != by_color.end())
         found[i] = pairs_of(i, side, sides, neighbours->second, channels, kept);
     });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/numeric/enum_names.h"
+
 #include <string_view>
 
 namespace tilepack {
@@ -15,7 +17,11 @@ enum class MipMode {
                  ///< the jump at borders; see mip/least_squares.h
 };
 
-std::string_view name_of(MipMode mode); ///< "none", "box", "edges", "corners", "least-squares"
+template <>
+inline constexpr auto enum_names<MipMode> =
+    std::array{EnumName{MipMode::none, "none"}, EnumName{MipMode::box, "box"},
+               EnumName{MipMode::edges, "edges"}, EnumName{MipMode::corners, "corners"},
+               EnumName{MipMode::least_squares, "least-squares"}};
 
 struct MipOptions {
   MipMode mode = MipMode::edges;

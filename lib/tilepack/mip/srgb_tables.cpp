@@ -80,7 +80,7 @@ bool halve_srgb_codes(std::span<const float> north, std::span<const float> south
 void encode_srgb(std::span<const float> linear, int channels, std::span<float> to, const SrgbKernel& kernel) {
   const EncodeCurve curve{static_cast<int>(first_bits), encode_table().data()};
   const auto step = static_cast<std::size_t>(channels);
-  const bool alpha = channels % 2 == 0;
+  const bool alpha = color_channels(channels) != channels;
   static_assert(SrgbKernel::block % 4 == 0); // whole texels, where there is alpha
   std::array<float, SrgbKernel::block> block;
   const bool in_place = linear.data() == to.data();

@@ -1,6 +1,7 @@
 #include "tilepack/pack/file_name.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/tileset/limits.h"
 
 #include <algorithm>
 
@@ -30,7 +31,8 @@ bool is_map_name(std::string_view name) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   };
-  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), allowed);
+  return !name.empty() && name.size() <= limits::longest_map_name &&
+         std::all_of(name.begin(), name.end(), allowed);
 }
 
 fs::path inside_folder(const fs::path& folder, const std::string& name) {

@@ -5,6 +5,7 @@
 #include "tilepack/layout/layout.h"
 #include "tilepack/mapping/mapping.h"
 #include "tilepack/mip/mip_mode.h"
+#include "tilepack/tileset/limits.h"
 #include "tilepack/tileset/set_figures.h"
 #include "tilepack/tileset/tile_set.h"
 #include "tilepack/tileset/value_space.h"
@@ -17,12 +18,8 @@
 
 namespace tilepack {
 
-/// The most texels one level of a map may have: 16384 x 16384, beyond what graphics hardware takes. Limits
-/// what reading a pack can make a program allocate.
-constexpr std::int64_t most_texels_a_level = std::int64_t{1} << 28;
-
-/// The largest seed: whole in every JSON reader, also those that keep numbers as doubles.
-constexpr std::uint64_t largest_seed = (std::uint64_t{1} << 53) - 1;
+using limits::largest_seed;
+using limits::most_texels_a_level;
 
 /// What storing tiles turned costs: level 0 of a map stored with `filter` and read back as tiles_at_level
 /// does, held against the tiles as they were.

@@ -8,7 +8,7 @@
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/pack_json.h"
-#include "tilepack/tileset/border_keys.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -19,23 +19,12 @@
 namespace tilepack {
 namespace {
 
-constexpr int largest_tile_side = 16384;
-constexpr int most_colors = 8;
-constexpr std::size_t most_tiles = 4096; // the complete set of 8 × 8 edge colors
-constexpr std::size_t most_maps = 64;
-constexpr std::size_t longest_table = 65536;
-constexpr std::int64_t largest_virtual_side = std::int64_t{1} << 31;
-constexpr std::int64_t largest_index_side = 65536;
-constexpr std::int64_t most_index_cells = std::int64_t{1} << 26;
-
 using LevelFiles = std::vector<TextureFile>;
 
-// The enumerator whose name stands at `value`; `last` ends the enumeration.
-template <typename Enum>
-Enum named(const JsonCursor& value, Enum last) {
-  std::vector<std::string> names;
-  for (int i = 0; i <= static_cast<int>(last); ++i) names.emplace_back(name_of(static_cast<Enum>(i)));
-  return static_cast<Enum>(value.one_of(names));
+// The enumerator whose name stands at `value`.
+template <NamedEnum Enum>
+Enum named(const JsonCursor& value) {
+  return enum_names<Enum>[value.one_of(names_of<Enum>())].value;
 }
 
 Size read_size(const JsonCursor& value, int largest) {
@@ -59,15 +48,15 @@ Generator read_generator(const JsonCursor& value) {
 ColorCounts read_colors(const JsonCursor& value, Coloring coloring) {
   if (coloring == Coloring::corner) {
     value.only({"corner"});
-    return {0, 0, value.member("corner").small_integer(1, most_colors)};
+    return {0, 0, value.member("corner").small_integer(1, limits::most_corner_colors)};
   }
   value.only({"horizontal", "vertical"});
-  return {value.member("horizontal").small_integer(1, most_colors),
-          value.member("vertical").small_integer(1, most_colors), 0};
+  return {value.member("horizontal").small_integer(1, limits::most_edge_colors),
+          value.member("vertical").small_integer(1, limits::most_edge_colors), 0};
 }
 
 TileColors read_tiles(const JsonCursor& list, Coloring coloring, const ColorCounts& colors) {
-  const std::size_t count = list.array(1, most_tiles);
+  const std::size_t count = list.array(1, limits::most_tiles);
   std::vector<EdgeTile> edge;
   std::vector<CornerTile> corner;
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,8 +94,8 @@ Layout read_grid(const JsonCursor& value, LayoutKind kind, int tiles) {
   value.only({"kind", "columns", "rows", "cells"});
   Layout layout;
   layout.kind = kind;
-  layout.columns = value.member("columns").small_integer(1, static_cast<int>(most_tiles));
-  layout.rows = value.member("rows").small_integer(1, static_cast<int>(most_tiles));
+  layout.columns = value.member("columns").small_integer(1, limits::most_tiles);
+  layout.rows = value.member("rows").small_integer(1, limits::most_tiles);
   read_cells(value.member("cells"), tiles, [&](int tile, const JsonCursor& cell) {
     cell.only({"tile", "column", "row"});
     layout.cells.push_back({tile, cell.member("column").small_integer(0, layout.columns - 1),
@@ -131,29 +120,11 @@ Layout read_array(const JsonCursor& value, int tiles, Size tile_size) {
 }
 
 // Origin and angle follow from the scheme; a file where they differ was not written for this sampler.
-// Whether the tiles on both sides of every border of the torus fit.
-bool neighbours_match(const Layout& rotated, const TileColors& colors) {
-  const std::vector<BorderKeys> keys = border_keys(colors);
-  const auto side = [&](int tile, BorderKeys::Side which) {
-    return keys[static_cast<std::size_t>(tile)].sides[which];
-  };
-  const std::vector<Surroundings> around = packed_surroundings(rotated);
-  for (int tile = 0; tile < static_cast<int>(around.size()); ++tile) {
-    const Surroundings& round = around[static_cast<std::size_t>(tile)];
-    if (side(tile, BorderKeys::east) != side(round.e, BorderKeys::west) ||
-        side(tile, BorderKeys::south) != side(round.s, BorderKeys::north))
-      return false;
-  }
-  return true;
-}
-
 Layout read_rotated(const JsonCursor& value, const TileColors& colors, Size tile_size) {
   const int tiles = tile_count(colors);
   value.only({"kind", "n", "k", "squares", "gutter", "size", "matching", "cells"});
-  constexpr int largest_n = 64; // most_tiles
-  constexpr int largest_side = 65536;
   RotatedScheme scheme;
-  scheme.n = value.member("n").small_integer(1, largest_n);
+  scheme.n = value.member("n").small_integer(1, limits::largest_scheme_n);
   scheme.k = value.member("k").small_integer(0, scheme.n);
   scheme.squares = value.member("squares").small_integer(1, 2);
   if (tile_count(scheme) != tiles)
@@ -168,7 +139,7 @@ Layout read_rotated(const JsonCursor& value, const TileColors& colors, Size tile
   layout.columns = lattice.columns();
   layout.rows = lattice.rows();
   layout.rotated = {scheme, value.member("gutter").small_integer(0, tile_size.width),
-                    read_size(value.member("size"), largest_side), Matching::not_found};
+                    read_size(value.member("size"), limits::longest_texture_side), Matching::not_found};
   layout.cells.push_back({0, 0, 0});
   const Size size = layout.rotated.size;
   // The corner of the tile in a cell at (0, 0): what the gutter adds to every origin.
@@ -194,15 +165,15 @@ Layout read_rotated(const JsonCursor& value, const TileColors& colors, Size tile
     layout.cells.push_back({tile, column, row});
   });
   if (const auto matching = value.find("matching"))
-    layout.rotated.matching = named(*matching, Matching::not_found);
-  else if (neighbours_match(layout, colors)) // packs of before the field was written
+    layout.rotated.matching = named<Matching>(*matching);
+  else if (colors_match(colors, packed_surroundings(layout))) // packs of before the field was written
     layout.rotated.matching = Matching::found;
   return layout;
 }
 
 Layout read_layout(const JsonCursor& value, const TileColors& colors, Size tile_size) {
   const int tiles = tile_count(colors);
-  const auto kind = named(value.member("kind"), LayoutKind::array);
+  const auto kind = named<LayoutKind>(value.member("kind"));
   if (kind == LayoutKind::rotated) return read_rotated(value, colors, tile_size);
   if (kind == LayoutKind::array) return read_array(value, tiles, tile_size);
   return read_grid(value, kind, tiles);
@@ -262,7 +233,7 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
                                  std::vector<LevelFiles>& files, std::set<std::string>& used) {
   std::vector<PackedMap> maps;
   std::set<std::string> names;
-  const std::size_t count = list.array(1, most_maps);
+  const std::size_t count = list.array(1, limits::most_maps);
   for (std::size_t m = 0; m < count; ++m) {
     const JsonCursor value = list.item(m);
     PackedMap map;
@@ -275,12 +246,13 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
     const JsonCursor name = value.member("name");
     map.name = name.text();
     if (!is_map_name(map.name))
-      name.fail(fmt::format("{} is no name of a map: 1 to 64 letters, digits, '-' and '_'", name.shown()));
+      name.fail(fmt::format("{} is no name of a map: 1 to {} letters, digits, '-' and '_'", name.shown(),
+                            limits::longest_map_name));
     if (!names.insert(map.name).second) name.fail(fmt::format("{} stands twice", name.shown()));
-    map.role = named(value.member("role"), Role::data);
-    map.encoding = named(value.member("encoding"), Encoding::linear);
-    map.depth = named(value.member("depth"), Depth::f32);
-    map.channels = value.member("channels").small_integer(1, 4);
+    map.role = named<Role>(value.member("role"));
+    map.encoding = named<Encoding>(value.member("encoding"));
+    map.depth = named<Depth>(value.member("depth"));
+    map.channels = value.member("channels").small_integer(1, limits::most_map_channels);
     files.push_back(read_levels(value.member("levels"), textures, used));
     maps.push_back(std::move(map));
   }
@@ -306,17 +278,17 @@ std::vector<int> read_pattern(const JsonCursor& value, const ColorCounts& colors
 Mapping read_mapping(const JsonCursor& value, const ColorCounts& colors, std::string& index_file,
                      std::set<std::string>& used) {
   Mapping mapping;
-  mapping.kind = named(value.member("kind"), MappingKind::index);
+  mapping.kind = named<MappingKind>(value.member("kind"));
   const bool stored = mapping.kind == MappingKind::index;
   const JsonCursor size = value.member("virtual_size");
-  const std::int64_t largest = stored ? largest_index_side : largest_virtual_side;
+  const std::int64_t largest = stored ? limits::longest_index_side : limits::longest_virtual_side;
   size.array(2, 2);
   mapping.size = {size.item(0).integer(1, largest), size.item(1).integer(1, largest)};
   switch (mapping.kind) {
   case MappingKind::permutation: {
     value.only({"kind", "virtual_size", "table"});
     const JsonCursor table = value.member("table");
-    const std::size_t length = table.array(1, longest_table);
+    const std::size_t length = table.array(1, limits::longest_table);
     for (std::size_t i = 0; i < length; ++i)
       mapping.table.push_back(table.item(i).small_integer(0, static_cast<int>(length) - 1));
     break;
@@ -334,9 +306,9 @@ Mapping read_mapping(const JsonCursor& value, const ColorCounts& colors, std::st
     break;
   case MappingKind::index: {
     value.only({"kind", "virtual_size", "file"});
-    if (mapping.size.width * mapping.size.height > most_index_cells)
+    if (mapping.size.width * mapping.size.height > limits::most_index_cells)
       size.fail(fmt::format("{} x {} cells; an index map has at most {}", mapping.size.width,
-                            mapping.size.height, most_index_cells));
+                            mapping.size.height, limits::most_index_cells));
     const JsonCursor file = value.member("file");
     index_file = file.text();
     if (const std::string fault = file_name_fault(index_file); !fault.empty())
@@ -432,8 +404,8 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   PackDescription result;
   Pack& pack = result.pack;
   pack.generator = read_generator(root.member("generator"));
-  pack.tile_size = read_size(root.member("tile_size"), largest_tile_side);
-  const auto coloring = static_cast<Coloring>(root.member("coloring").one_of({"edge", "corner"}));
+  pack.tile_size = read_size(root.member("tile_size"), limits::largest_tile_side);
+  const auto coloring = named<Coloring>(root.member("coloring"));
   pack.colors = read_colors(root.member("colors"), coloring);
   pack.tiles = read_tiles(root.member("tiles"), coloring, pack.colors);
   pack.layout = read_layout(root.member("layout"), pack.tiles, pack.tile_size);

@@ -215,7 +215,7 @@ std::string pack_json(const PackDescription& description) {
   json["version"] = 1;
   json["generator"] = generator_json(pack.generator);
   json["tile_size"] = size_json(pack.tile_size);
-  json["coloring"] = edge ? "edge" : "corner";
+  json["coloring"] = name_of(coloring_of(pack.tiles));
   json["colors"] = edge
                        ? JsonValue{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
                        : JsonValue{{"corner", pack.colors.corner}};

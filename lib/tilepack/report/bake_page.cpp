@@ -1,5 +1,6 @@
 #include "tilepack/report/bake_page.h"
 
+#include "tilepack/error/field.h"
 #include "tilepack/exemplar/feature_image.h"
 #include "tilepack/report/bake_pictures.h"
 #include "tilepack/report/html_page.h"
@@ -12,6 +13,11 @@
 
 namespace tilepack {
 namespace {
+
+// For whoever reads the page and types it.
+std::string as_option(std::string_view name, std::string_view value = {}) {
+  return spelled(field(name, value), FieldSpelling::option);
+}
 
 std::string figure(const Image& image, const std::string& caption) {
   return fmt::format(
@@ -36,8 +42,8 @@ std::string verdict_box(const BakeVerdict& verdict) {
                   : verdict.grade == Grade::fair ? "usable; what could be better comes first."
                                                  : "the eye will find faults; the worst come first.");
   for (const BakeRemark& remark : verdict.remarks)
-    out +=
-        fmt::format("<li><b class=\"{0}\">{0}</b> {1}</li>\n", name_of(remark.grade), escaped(remark.text));
+    out += fmt::format("<li><b class=\"{0}\">{0}</b> {1}</li>\n", name_of(remark.grade),
+                       escaped(spelled(remark.text, FieldSpelling::option)));
   return out + "</ul></div>\n";
 }
 
@@ -66,7 +72,7 @@ std::string cut_caption(double step, int drawn, int tiles) {
 std::string figures_table(const BakeFacts& facts) {
   const SetFigures& f = facts.report.figures;
   std::string out = "<table class=\"words\"><tr><th>figure</th><th>value</th><th>meaning</th></tr>\n";
-  const auto row = [&](const char* name, const std::string& value, const char* meaning) {
+  const auto row = [&](const char* name, const std::string& value, const std::string& meaning) {
     out += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", name, value, meaning);
   };
   const auto share = [](double v) { return fmt::format("{:.1f} %", v * 100); };
@@ -93,11 +99,12 @@ std::string figures_table(const BakeFacts& facts) {
   };
   row("repeat of the sample",
       fmt::format("x {}, y {}", period(facts.nature.periods.x), period(facts.nature.periods.y)),
-      "texels; tiles should hold whole ones: --tile-size auto");
+      fmt::format("texels; tiles should hold whole ones: {}", as_option("tile-size", "auto")));
   row("drift of the sample", share(facts.nature.drift),
       "of its variance lies between areas of a tile's size; tiles can't follow it");
   row("shading of the sample", share(facts.nature.shading),
-      "of its variance is slow and not patches without order: where tiles differ in tone, --flatten");
+      fmt::format("of its variance is slow and not patches without order: where tiles differ in tone, {}",
+                  as_option("flatten")));
   row("two tones", share(facts.nature.two_tone),
       "of its variance are explained by two tones; 64 % in a bell curve");
   return out + "</table>\n";
@@ -140,13 +147,14 @@ std::string options_table(const Pack& pack) {
   std::string found;
   bool has_mapping = false;
   for (const auto& [name, value] : generator.options) {
-    out += fmt::format("--{} {} ", escaped(name), escaped(value));
+    out += escaped(as_option(name, value)) + " ";
     if (name == "tile-size" && value == "auto")
-      found += fmt::format(" --tile-size {}x{}", pack.tile_size.width, pack.tile_size.height);
+      found += fmt::format(
+          " {}", as_option("tile-size", fmt::format("{}x{}", pack.tile_size.width, pack.tile_size.height)));
     has_mapping = has_mapping || name == "mapping";
   }
-  if (!has_mapping) found += fmt::format(" --mapping {}", name_of(pack.mapping.kind));
-  out += fmt::format("--seed {}</code>", generator.seed);
+  if (!has_mapping) found += fmt::format(" {}", as_option("mapping", name_of(pack.mapping.kind)));
+  out += as_option("seed", std::to_string(generator.seed)) + "</code>";
   if (!found.empty()) out += fmt::format("; chosen: <code>{}</code>", found.substr(1));
   return out + fmt::format("; version {}</p>\n", escaped(generator.version));
 }

@@ -1,8 +1,10 @@
 #include "tilepack/report/bake_verdict.h"
 
+#include "tilepack/error/field.h"
 #include "tilepack/exemplar/feature_image.h"
 #include "tilepack/exemplar/flatten.h"
 #include "tilepack/report/verdict_thresholds.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -41,10 +43,14 @@ double percent(double share) {
   return share * 100;
 }
 
-void add(Remarks& remarks, Grade grade, std::string text) {
-  BakeRemark& remark = remarks.emplace_back();
-  remark.grade = grade;
-  remark.text = std::move(text);
+void add(Remarks& remarks, Grade grade, std::string_view code, std::string text,
+         std::optional<Cure> cure = std::nullopt) {
+  remarks.push_back({grade, std::string(code), std::move(text), std::move(cure)});
+}
+
+// As the text names it.
+std::string shown(const Cure& cure) {
+  return field(cure.field, cure.value);
 }
 
 // Marks that mean something alone: two tones, little ink, in lines.
@@ -75,7 +81,7 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
     if (period.length <= 0) return;
     const double off = misfit(period, side);
     if (const int count = whole_periods(period, side); count > 0) {
-      add(remarks, Grade::good,
+      add(remarks, Grade::good, "periods-held",
           fmt::format("The sample repeats every {:.2f} texels along {}, and a tile "
                       "holds {} of them.",
                       period.length, axis, count));
@@ -91,17 +97,18 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
         period.length, axis, side, side / period.length);
     const char* const limit = is_writing(facts) ? " Lines then run on, what they say does not." : "";
     if (fitting != side && misfit(period, fitting) < off)
-      add(remarks, grade,
-          fmt::format("{} Bake with --tile-size {}, which --tile-size auto finds{}.{}", found,
-                      shown(advice.size),
+      add(remarks, grade, "periods-broken",
+          fmt::format("{} Bake with {}, which {} finds{}.{}", found, field("tile-size", shown(advice.size)),
+                      field("tile-size", "auto"),
                       mip_levels(advice.size) < mip_levels(tile)
                           ? fmt::format(" (tiles of that size have {} mip level{}, these {})",
                                         mip_levels(advice.size), mip_levels(advice.size) == 1 ? "" : "s",
                                         mip_levels(tile))
                           : "",
-                      limit));
+                      limit),
+          Cure{"tile-size", shown(advice.size)});
     else
-      add(remarks, grade,
+      add(remarks, grade, "periods-broken",
           fmt::format("{} No tile that fits holds whole repeats; a larger sample, or one "
                       "scaled so that repeats are whole texels, would help.",
                       found));
@@ -114,7 +121,7 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
 void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
   const SetFigures& f = facts.report.figures;
   if (f.cut_length == 0) {
-    add(remarks, Grade::good, "No tile has a cut inside.");
+    add(remarks, Grade::good, "no-cuts", "No tile has a cut inside.");
     return;
   }
   const double mean = mean_cut(facts);
@@ -124,23 +131,27 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
       "neighbouring texels of the sample differ by {:.1f}",
       f.cut_mean, f.cut_p95, f.sample_step);
   if (mean <= limit::cut_mean_fair && worst <= limit::cut_p95_fair) {
-    add(remarks, Grade::good, found + ", so cuts hide in the texture.");
+    add(remarks, Grade::good, "cuts-hidden", found + ", so cuts hide in the texture.");
     return;
   }
   std::string options;
-  const auto suggest = [&](const std::string& option) { options += (options.empty() ? "" : ", ") + option; };
+  std::optional<Cure> first;
+  const auto suggest = [&](const Cure& cure, const std::string& before = "", const std::string& after = "") {
+    options += (options.empty() ? "" : ", ") + before + shown(cure) + after;
+    if (!first) first = cure;
+  };
   const SynthOptions& o = facts.synth;
-  if (o.interior == Construction::quilt) suggest("--interior patch");
-  if (o.effort < 9) suggest("--effort 9");
+  if (o.interior == Construction::quilt) suggest({"interior", "patch"});
+  if (o.effort < limits::highest_effort) suggest({"effort", std::to_string(limits::highest_effort)});
   if (2 * o.tile_size.width <= facts.sample.width / 2 && 2 * o.tile_size.height <= facts.sample.height / 2)
-    suggest(fmt::format("--tile-size {} (fewer cuts for the area)",
-                        shown({2 * o.tile_size.width, 2 * o.tile_size.height})));
-  suggest("another --seed");
+    suggest({"tile-size", shown(Size{2 * o.tile_size.width, 2 * o.tile_size.height})}, "",
+            " (fewer cuts for the area)");
+  suggest({"seed", ""}, "another ");
   const int colors =
       o.coloring == Coloring::corner ? o.colors.corner : std::max(o.colors.horizontal, o.colors.vertical);
-  if (colors > 2) suggest("--colors 2 (fewer parts that must fit one another)");
+  if (colors > 2) suggest({"colors", "2"}, "", " (fewer parts that must fit one another)");
   add(remarks, mean > limit::cut_mean_poor || worst > limit::cut_p95_poor ? Grade::poor : Grade::fair,
-      fmt::format("{}: some can be seen. Try {}.", found, options));
+      "cuts-seen", fmt::format("{}: some can be seen. Try {}.", found, options), first);
 }
 
 // Steps alone don't tell: a set has few kinds of borders, and where one runs along a joint of bricks its step
@@ -149,33 +160,42 @@ void judge_borders(const BakeFacts& facts, Remarks& remarks) {
   const SetFigures& f = facts.report.figures;
   const double share = f.border_mean / sample_step(facts);
   if (share <= limit::border_fair) {
-    add(remarks, Grade::good, "Across borders tiles show neighbours of the sample: no border can be told.");
+    add(remarks, Grade::good, "borders-hidden",
+        "Across borders tiles show neighbours of the sample: no border can be told.");
     return;
   }
-  const std::string way_out = facts.synth.coloring == Coloring::edge
-                                  ? "--coloring corner, whose corners agree"
-                                  : "--guard 4, or another --seed";
-  add(remarks, share > limit::border_poor ? Grade::poor : Grade::fair,
+  const bool edge = facts.synth.coloring == Coloring::edge;
+  const Cure cure = edge ? Cure{"coloring", "corner"} : Cure{"guard", "4"};
+  const std::string way_out = edge ? shown(cure) + ", whose corners agree"
+                                   : fmt::format("{}, or another {}", shown(cure), field("seed"));
+  add(remarks, share > limit::border_poor ? Grade::poor : Grade::fair, "borders-seen",
       fmt::format(
           "Across borders material differs by {:.1f} on average (neighbouring texels of the sample by "
           "{:.1f}). Try {}.",
-          f.border_mean, f.sample_step, way_out));
+          f.border_mean, f.sample_step, way_out),
+      cure);
 }
 
 bool has_shading(const SampleTraits& nature) {
   return nature.shading > limit::shading_fair || nature.drift > limit::drift_fair;
 }
 
-std::string shading_text(const BakeFacts& facts) {
+void judge_shading(const BakeFacts& facts, Remarks& remarks) {
   const double drift = facts.nature.drift;
+  const Grade grade = drift > limit::drift_poor ? Grade::poor : Grade::fair;
   const std::string found =
       fmt::format("{:.1f} % of the sample's variance lies between areas of a tile's size: brightness or hue "
                   "changes on a larger scale than tiles, which shows as a patchwork of tones.",
                   percent(drift));
   if (facts.flatten < 100 && facts.flat_drift < limit::flatten_helps * drift)
-    return fmt::format("{} Bake with --flatten 100, which leaves {:.1f} %, or with a larger --tile-size.",
-                       found, percent(facts.flat_drift));
-  return found + " Use a larger --tile-size, or a sample that is more even.";
+    add(remarks, grade, "shading",
+        fmt::format("{} Bake with {}, which leaves {:.1f} %, or with a larger {}.", found,
+                    field("flatten", "100"), percent(facts.flat_drift), field("tile-size")),
+        Cure{"flatten", "100"});
+  else
+    add(remarks, grade, "shading",
+        fmt::format("{} Use a larger {}, or a sample that is more even.", found, field("tile-size")),
+        Cure{"tile-size", ""});
 }
 
 void judge_sample(const BakeFacts& facts, Remarks& remarks) {
@@ -184,46 +204,59 @@ void judge_sample(const BakeFacts& facts, Remarks& remarks) {
   const double held = tiles_in_sample(facts);
   if (held < limit::tiles_held_fair) {
     const int smaller = std::min(facts.sample.width, facts.sample.height) / 4 / 8 * 8;
-    add(remarks, held < limit::tiles_held_poor ? Grade::poor : Grade::fair,
+    std::optional<Cure> cure;
+    if (smaller >= 16 && smaller < std::min(tile.width, tile.height))
+      cure = Cure{"tile-size", std::to_string(smaller)};
+    add(remarks, held < limit::tiles_held_poor ? Grade::poor : Grade::fair, "sample-small",
         fmt::format("The sample holds {:.1f} tiles, too little for every tile to have an inside of its own. "
                     "Use a larger sample{}.",
-                    held,
-                    smaller >= 16 && smaller < std::min(tile.width, tile.height)
-                        ? fmt::format(", or --tile-size {}", smaller)
-                        : ""));
+                    held, cure ? fmt::format(", or {}", shown(*cure)) : ""),
+        cure);
   }
-  if (has_shading(n))
-    add(remarks, n.drift > limit::drift_poor ? Grade::poor : Grade::fair, shading_text(facts));
+  if (has_shading(n)) judge_shading(facts, remarks);
   if (is_writing(facts))
-    add(remarks, Grade::poor,
+    add(remarks, Grade::poor, "writing",
         "The sample looks like writing or drawing: two tones in lines. Tiles keep what neighbours "
         "look like, not what marks mean, and cuts must run through marks: no option keeps what "
         "is written whole. Store it as a texture of its own.");
 }
 
 // More tiles show more only where the sample has more to show than they hold.
-std::string way_to_variety(const BakeFacts& facts) {
+struct WayOut {
+  std::string text;
+  std::optional<Cure> cure;
+};
+
+WayOut way_to_variety(const BakeFacts& facts) {
   const SynthOptions& o = facts.synth;
   const bool corner = o.coloring == Coloring::corner;
   const ColorCounts& k = o.colors;
   const int more = 1 + (corner ? k.corner : std::min(k.horizontal, k.vertical));
-  if (o.interior == Construction::quilt) return " --interior patch gives every tile an inside of its own.";
+  if (o.interior == Construction::quilt) {
+    const Cure cure{"interior", "patch"};
+    return {fmt::format(" {} gives every tile an inside of its own.", shown(cure)), cure};
+  }
   const double held = tiles_in_sample(facts);
   if (held < facts.tiles)
-    return held < limit::tiles_held_fair ? "" : " A larger sample or smaller tiles show more.";
-  if (more > (corner ? 4 : 8)) return "";
+    return {held < limit::tiles_held_fair ? "" : " A larger sample or smaller tiles show more.",
+            std::nullopt};
+  if (more > (corner ? limits::most_corner_colors : limits::most_edge_colors)) return {};
   const int complete = corner ? facts.tiles : k.horizontal * k.horizontal * k.vertical * k.vertical;
-  return fmt::format(" --colors {} shows more, in {} tiles.", more,
-                     facts.tiles == complete ? more * more * more * more : 2 * more * more);
+  const Cure cure{"colors", std::to_string(more)};
+  return {fmt::format(" {} shows more, in {} tiles.", shown(cure),
+                      facts.tiles == complete ? more * more * more * more : 2 * more * more),
+          cure};
 }
 
 void judge_variety(const BakeFacts& facts, Remarks& remarks) {
   const SetFigures& f = facts.report.figures;
   if (facts.tiles == 1) {
-    add(remarks, Grade::fair, "One tile lies in all cells. --colors 2 shows more, in 16 tiles.");
+    const Cure cure{"colors", "2"};
+    add(remarks, Grade::fair, "one-tile",
+        fmt::format("One tile lies in all cells. {} shows more, in 16 tiles.", shown(cure)), cure);
     return;
   }
-  const std::string way_out = way_to_variety(facts);
+  const WayOut way_out = way_to_variety(facts);
   const std::string found = fmt::format(
       "The tiles show {:.0f} % of the sample and are as varied as {:.1f} tiles without a texel in "
       "common, of {}",
@@ -231,21 +264,24 @@ void judge_variety(const BakeFacts& facts, Remarks& remarks) {
   const double possible = tiles_possible(facts);
   const bool few = f.coverage < limit::coverage_few && f.distinct_tiles < limit::variety_fair * possible;
   if (few)
-    add(remarks, f.distinct_tiles < limit::variety_poor * possible ? Grade::poor : Grade::fair,
-        found + ": parts come back often, and others are never seen." + way_out);
+    add(remarks, f.distinct_tiles < limit::variety_poor * possible ? Grade::poor : Grade::fair, "few-parts",
+        found + ": parts come back often, and others are never seen." + way_out.text, way_out.cure);
   else
-    add(remarks, Grade::good, found + ".");
+    add(remarks, Grade::good, "varied", found + ".");
   if (f.shown_often > limit::shown_often_fair) // the way out is said once
-    add(remarks, Grade::fair,
+    add(remarks, Grade::fair, "shown-often",
         fmt::format("{:.0f} % of the tiles' area shows what half of all tiles show.{}",
-                    percent(f.shown_often), few ? "" : way_out));
+                    percent(f.shown_often), few ? "" : way_out.text),
+        few ? std::nullopt : way_out.cure);
   if (f.histogram_distance > limit::histogram_fair)
-    add(remarks, f.histogram_distance > limit::histogram_poor ? Grade::poor : Grade::fair,
+    add(remarks, f.histogram_distance > limit::histogram_poor ? Grade::poor : Grade::fair, "values-differ",
         fmt::format(
             "Values are spread otherwise than in the sample, by {:.1f} % of texels: some brightness or "
-            "kind of detail is shown too often. Try another --seed{}.",
-            percent(f.histogram_distance),
-            facts.synth.interior == Construction::quilt ? " or --interior patch" : " or more --colors"));
+            "kind of detail is shown too often. Try another {} or {}.",
+            percent(f.histogram_distance), field("seed"),
+            facts.synth.interior == Construction::quilt ? field("interior", "patch")
+                                                        : fmt::format("more {}", field("colors"))),
+        Cure{"seed", ""});
 }
 
 void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
@@ -255,11 +291,13 @@ void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
       mark.shown >= limit::landmark_shown_poor && mark.deviation >= limit::landmark_deviation_poor
           ? Grade::poor
           : Grade::fair,
+      "landmark",
       fmt::format(
           "The spot round ({}, {}) of the sample is unlike the rest ({:.1f} standard deviations), and "
-          "{:.0f} % of the tiles show it: the eye may find it again and again. Try another --seed, or "
+          "{:.0f} % of the tiles show it: the eye may find it again and again. Try another {}, or "
           "paint it over in the sample.",
-          mark.centre.x, mark.centre.y, mark.deviation, percent(mark.shown)));
+          mark.centre.x, mark.centre.y, mark.deviation, percent(mark.shown), field("seed")),
+      Cure{"seed", ""});
 }
 
 } // namespace
@@ -302,22 +340,19 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
   return facts;
 }
 
-std::string_view name_of(Grade grade) {
-  switch (grade) {
-  case Grade::good:
-    return "good";
-  case Grade::fair:
-    return "fair";
-  case Grade::poor:
-    break;
-  }
-  return "poor";
+std::span<const std::string_view> remark_codes() {
+  static constexpr std::string_view codes[] = {
+      "plain",          "sample-small", "shading",   "writing",  "periods-held", "periods-broken",
+      "no-cuts",        "cuts-hidden",  "cuts-seen", "varied",   "few-parts",    "shown-often",
+      "borders-hidden", "borders-seen", "one-tile",  "landmark", "values-differ"};
+  return codes;
 }
 
 BakeVerdict bake_verdict(const BakeFacts& facts) {
   BakeVerdict verdict;
   if (facts.report.figures.sample_step == 0) {
-    add(verdict.remarks, Grade::good, "The sample is one plain value: nothing in it can be seen to repeat.");
+    add(verdict.remarks, Grade::good, "plain",
+        "The sample is one plain value: nothing in it can be seen to repeat.");
     return verdict;
   }
   judge_sample(facts, verdict.remarks);

@@ -3,6 +3,7 @@
 #include "tilepack/bake/bake.h"
 #include "tilepack/exemplar/sample_traits.h"
 #include "tilepack/measure/seams.h"
+#include "tilepack/numeric/enum_names.h"
 
 #include <optional>
 #include <span>
@@ -28,12 +29,24 @@ struct BakeFacts {
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples);
 
 enum class Grade { good, fair, poor };
-std::string_view name_of(Grade grade);
+template <>
+inline constexpr auto enum_names<Grade> =
+    std::array{EnumName{Grade::good, "good"}, EnumName{Grade::fair, "fair"}, EnumName{Grade::poor, "poor"}};
 
-/// One finding in plain words: what was found, and where it is not good, which option to turn.
+/// What to bake with instead: an option by its field, and the value to give it. An empty value leaves the
+/// choice: another seed, a larger tile.
+struct Cure {
+  std::string field;
+  std::string value;
+  bool operator==(const Cure&) const = default;
+};
+
+/// One finding: what was found, and where it is not good, which option to turn.
 struct BakeRemark {
   Grade grade = Grade::good;
-  std::string text;
+  std::string code;         ///< what is meant, for programs: "cuts-seen", "sample-small", … (remark_codes)
+  std::string text;         ///< in plain words, options as marked fields (error/field.h)
+  std::optional<Cure> cure; ///< the first that `text` names
   bool operator==(const BakeRemark&) const = default;
 };
 
@@ -42,6 +55,9 @@ struct BakeVerdict {
   Grade grade = Grade::good;       ///< the worst of the remarks
   std::vector<BakeRemark> remarks; ///< the worst first
 };
+
+/// Every code that a remark can have.
+std::span<const std::string_view> remark_codes();
 
 BakeVerdict bake_verdict(const BakeFacts& facts);
 

@@ -4,6 +4,7 @@
 #include "tilepack/layout/corner_grid.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/wrap.h"
+#include "tilepack/pack/pack_maps.h"
 #include "tilepack/sampler/virtual_texture.h"
 
 #include <fmt/format.h>
@@ -71,20 +72,13 @@ void draw_label(VectorDrawing& drawing, int tile, const TileOutline& f) {
   drawing.numbers.push_back({centre, dot * 7, tile, {1, 1, 1, 1}});
 }
 
-const PackedMap& map_of(const Pack& pack, const PackPictureOptions& options) {
-  if (options.map >= 0 && options.map < static_cast<int>(pack.maps.size())) return pack.maps[options.map];
-  throw Error(ErrorKind::usage, "--map",
-              fmt::format("{} is not 0 to {}, the maps of the pack", options.map, pack.maps.size() - 1));
-}
-
 // The finest level whose picture keeps within max_side, where level 0 would have this size.
 int level_of(const PackedMap& map, std::int64_t width, std::int64_t height,
              const PackPictureOptions& options) {
   const int levels = static_cast<int>(map.levels.size());
   if (options.level) {
-    if (*options.level >= 0 && *options.level < levels) return *options.level;
-    throw Error(ErrorKind::usage, "--level",
-                fmt::format("{} is not 0 to {}, the levels of map {}", *options.level, levels - 1, map.name));
+    level_at(map, *options.level);
+    return *options.level;
   }
   int level = 0;
   while (level + 1 < levels && (std::max(width, height) >> level) > options.max_side) ++level;
@@ -258,7 +252,7 @@ void draw_marks(VectorDrawing& drawing, const TileColors& tiles, int tile, const
 }
 
 Image viewable(const Image& image, Role role, Encoding encoding) {
-  const int colors = image.channels() - (image.channels() % 2 == 0 ? 1 : 0);
+  const int colors = color_channels(image.channels());
   const auto count = static_cast<std::size_t>(colors);
   std::vector<float> sorted;
   for (int y = 0; y < image.height(); ++y)
@@ -298,7 +292,7 @@ Image viewable(const Image& image, Role role, Encoding encoding) {
 }
 
 VectorDrawing pack_picture(const Pack& pack, const PackPictureOptions& options) {
-  const PackedMap& map = map_of(pack, options);
+  const PackedMap& map = map_at(pack, options.map);
   if (pack.layout.kind == LayoutKind::array) return layers_picture(pack, map, options);
   const Size whole = texture_size(pack.layout, pack.tile_size, 0);
   const int level = level_of(map, whole.width, whole.height, options);
@@ -320,9 +314,10 @@ VectorDrawing pack_picture(const Pack& pack, const PackPictureOptions& options) 
 }
 
 VectorDrawing corner_picture(const Pack& pack, const PackPictureOptions& options) {
-  map_of(pack, options);
+  map_at(pack, options.map);
   if (!pack.corner_pack)
-    throw Error(ErrorKind::usage, "--corner-picture", "the pack has none; bake it with --corner-pack");
+    throw Error(ErrorKind::usage, field("corner-picture"),
+                "the pack has none; bake it with " + field("corner-pack"));
   const CornerPack& corners = *pack.corner_pack;
   const PackedMap& map = corners.maps[static_cast<std::size_t>(options.map)];
   const int level = level_of(map, std::int64_t{corners.columns} * pack.tile_size.width,
@@ -341,7 +336,7 @@ VectorDrawing corner_picture(const Pack& pack, const PackPictureOptions& options
 }
 
 VectorDrawing expansion_picture(const Pack& pack, int columns, int rows, const PackPictureOptions& options) {
-  const PackedMap& map = map_of(pack, options);
+  const PackedMap& map = map_at(pack, options.map);
   const int level = level_of(map, std::int64_t{columns} * pack.tile_size.width,
                              std::int64_t{rows} * pack.tile_size.height, options);
   Size tile = level_size(pack.tile_size, level);

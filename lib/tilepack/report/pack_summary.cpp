@@ -1,6 +1,8 @@
 #include "tilepack/report/pack_summary.h"
 
+#include "tilepack/error/field.h"
 #include "tilepack/measure/pack_memory.h"
+#include "tilepack/numeric/grid.h"
 
 #include <fmt/format.h>
 
@@ -63,17 +65,15 @@ std::string grid_text(const Pack& pack) {
   std::string text = fmt::format("          cells: tile id, colors {}\n",
                                  edge_colored(pack) ? "north east south west" : "nw ne sw se");
   if (layout.columns > widest_table || layout.rows > 4 * widest_table)
-    return "          (the grid is too large for a table; --picture draws it)\n";
-  std::vector<std::string> cells(
-      static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows), "-");
+    return fmt::format("          (the grid is too large for a table; {} draws it)\n",
+                       spelled(field("picture"), FieldSpelling::option));
+  Grid<std::string> cells(layout.columns, layout.rows, "-");
   for (const Cell& cell : layout.cells)
-    cells[static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(layout.columns) +
-          static_cast<std::size_t>(cell.column)] =
-        fmt::format("{:>4} {}", cell.tile, colors_of(pack.tiles, cell.tile));
+    cells.at(cell.column, cell.row) = fmt::format("{:>4} {}", cell.tile, colors_of(pack.tiles, cell.tile));
   for (int row = 0; row < layout.rows; ++row) {
     text += "        ";
     for (int column = 0; column < layout.columns; ++column)
-      text += fmt::format("{:>10}", cells[static_cast<std::size_t>(row * layout.columns + column)]);
+      text += fmt::format("{:>10}", cells.at(column, row));
     text += "\n";
   }
   return text;

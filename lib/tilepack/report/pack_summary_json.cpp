@@ -1,3 +1,4 @@
+#include "tilepack/error/field.h"
 #include "tilepack/json/json_value.h"
 #include "tilepack/measure/pack_memory.h"
 #include "tilepack/report/pack_summary.h"
@@ -39,7 +40,7 @@ JsonValue figures_json(const SetFigures& figures) {
 }
 
 JsonValue maps_json(const PackSummary& summary, const std::vector<PackedMap>& maps,
-               const std::vector<MapFiles>& files) {
+                    const std::vector<MapFiles>& files) {
   JsonValue list = JsonValue::array();
   for (std::size_t m = 0; m < std::min(maps.size(), files.size()); ++m) {
     JsonValue levels = JsonValue::array();
@@ -120,8 +121,13 @@ JsonValue verdict_json(const BakeFacts& facts) {
   JsonValue json;
   json["grade"] = name_of(verdict.grade);
   json["remarks"] = JsonValue::array();
-  for (const BakeRemark& remark : verdict.remarks)
-    json["remarks"].push_back({{"grade", name_of(remark.grade)}, {"text", remark.text}});
+  for (const BakeRemark& remark : verdict.remarks) {
+    JsonValue entry{{"grade", name_of(remark.grade)},
+                    {"code", remark.code},
+                    {"text", spelled(remark.text, FieldSpelling::option)}};
+    if (remark.cure) entry["cure"] = {{"field", remark.cure->field}, {"value", remark.cure->value}};
+    json["remarks"].push_back(std::move(entry));
+  }
   return json;
 }
 
@@ -140,7 +146,7 @@ std::string summary_json(const PackSummary& summary) {
   JsonValue json{
       {"pack", summary.subject},
       {"tile_size", JsonValue::array({pack.tile_size.width, pack.tile_size.height})},
-      {"coloring", edge ? "edge" : "corner"},
+      {"coloring", name_of(coloring_of(pack.tiles))},
       {"colors", std::move(colors)},
       {"layout",
        {{"kind", name_of(pack.layout.kind)}, {"columns", pack.layout.columns}, {"rows", pack.layout.rows}}},

@@ -42,24 +42,6 @@ TileCoordinate from_texels(std::int64_t whole, double rest, int tile_side) {
       {(whole - texel) / tile_side, (static_cast<double>(texel) + rest) / static_cast<double>(tile_side)});
 }
 
-std::string_view name_of(WrapMode border) {
-  switch (border) {
-  case WrapMode::wrap:
-    return "wrap";
-  case WrapMode::clamp:
-    return "clamp";
-  case WrapMode::mirror:
-    break;
-  }
-  return "mirror";
-}
-
-std::optional<WrapMode> border_named(std::string_view name) {
-  for (const WrapMode border : {WrapMode::wrap, WrapMode::clamp, WrapMode::mirror})
-    if (name == name_of(border)) return border;
-  return {};
-}
-
 std::int64_t within(std::int64_t index, std::int64_t count, WrapMode border) {
   switch (border) {
   case WrapMode::wrap:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/numeric/enum_names.h"
+
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -31,8 +33,10 @@ enum class WrapMode {
   mirror, ///< the texture turned round: 0 1 2 | 2 1 0, and so on
 };
 
-std::string_view name_of(WrapMode border); ///< "wrap", "clamp", "mirror"
-std::optional<WrapMode> border_named(std::string_view name);
+template <>
+inline constexpr auto enum_names<WrapMode> =
+    std::array{EnumName{WrapMode::wrap, "wrap"}, EnumName{WrapMode::clamp, "clamp"},
+               EnumName{WrapMode::mirror, "mirror"}};
 
 /// Number `index`, any, of a row of `count` >= 1 texels or tiles that goes on as `border` says: 0..count-1.
 std::int64_t within(std::int64_t index, std::int64_t count, WrapMode border);

@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/lookup/lookup_tables.h"
 #include "tilepack/numeric/wrap.h"
+#include "tilepack/pack/pack_maps.h"
 #include "tilepack/sampler/address.h"
 #include "tilepack/sampler/fast_corners.h"
 #include "tilepack/sampler/fast_kernel.h"
@@ -192,8 +193,8 @@ void FastSampler::State::take_layers(const Pack& pack, int map) {
 void FastSampler::State::take_mapping(const Pack& pack) {
   if (pack.layout.kind == LayoutKind::rotated)
     throw Error(ErrorKind::usage, "layout",
-                "'rotated' is not one the fast sampler looks up; bake with --layout tile-index, de-bruijn or "
-                "array, or use the reference sampler");
+                "'rotated' is not one the fast sampler looks up; bake with " +
+                    field("layout", "tile-index") + ", de-bruijn or array, or use the reference sampler");
   mapping = pack.mapping;
   lookup.emplace(pack, mapping);
   tables.lookup = &lookup->words();
@@ -204,15 +205,12 @@ void FastSampler::State::take_mapping(const Pack& pack) {
 FastSampler::FastSampler(const Pack& pack, int map, std::string_view target)
     : state(std::make_unique<State>()) {
   state->take_kernel(target);
-  const int maps = static_cast<int>(pack.maps.size());
-  if (map < 0 || map >= maps)
-    throw Error(ErrorKind::usage, "map",
-                fmt::format("{} is not a map of the pack; it has 0..{}", map, maps - 1));
+  const PackedMap& own = map_at(pack, map);
   state->take_mapping(pack);
   if (pack.layout.kind == LayoutKind::array)
     state->take_layers(pack, map);
   else
-    state->take_texels(pack.maps[static_cast<std::size_t>(map)], pack.tile_size);
+    state->take_texels(own, pack.tile_size);
   if (pack.corner_pack) state->corner_pass.emplace(pack, map);
 }
 

@@ -5,24 +5,6 @@
 
 namespace tilepack {
 
-std::string_view name_of(Filter filter) {
-  switch (filter) {
-  case Filter::nearest:
-    return "nearest";
-  case Filter::bilinear:
-    return "bilinear";
-  case Filter::trilinear:
-    break;
-  }
-  return "trilinear";
-}
-
-std::optional<Filter> filter_named(std::string_view name) {
-  for (const Filter filter : {Filter::nearest, Filter::bilinear, Filter::trilinear})
-    if (name == name_of(filter)) return filter;
-  return {};
-}
-
 LevelBlend level_blend(double level, int levels, Filter filter) {
   const double last = levels - 1;
   const double inside = std::isnan(level) ? 0.0 : std::clamp(level, 0.0, last);

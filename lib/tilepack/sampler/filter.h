@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/numeric/enum_names.h"
+
 #include <optional>
 #include <string_view>
 
@@ -12,8 +14,10 @@ enum class Filter {
   trilinear, ///< bilinear in the two levels next to the one asked for, blended
 };
 
-std::string_view name_of(Filter filter); ///< "nearest", "bilinear", "trilinear"
-std::optional<Filter> filter_named(std::string_view name);
+template <>
+inline constexpr auto enum_names<Filter> =
+    std::array{EnumName{Filter::nearest, "nearest"}, EnumName{Filter::bilinear, "bilinear"},
+               EnumName{Filter::trilinear, "trilinear"}};
 
 /// The levels a lookup reads: (1 - coarse_weight) of `fine` and coarse_weight of `coarse`.
 struct LevelBlend {

@@ -4,23 +4,13 @@
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/tileset/value_space.h"
+#include "tilepack/pack/pack_maps.h"
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
 namespace tilepack {
-namespace {
-
-const PackedMap& map_of(const Pack& pack, int map) {
-  const int maps = static_cast<int>(pack.maps.size());
-  if (map < 0 || map >= maps)
-    throw Error(ErrorKind::usage, "map",
-                std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
-  return pack.maps[static_cast<std::size_t>(map)];
-}
-
-} // namespace
 
 TileSet tile_set_of(const Pack& pack) {
   TileSet set{pack.tile_size, pack.colors, pack.tiles, {}, pack.guard};
@@ -33,14 +23,14 @@ TileSet tile_set_of(const Pack& pack) {
 GroundTruth::GroundTruth(const Pack& of_pack, int map_index, WrapMode at_border,
                          std::vector<std::vector<Image>> encoded_tiles)
     : pack(&of_pack), tables(of_pack), border(at_border), tiles(std::move(encoded_tiles)) {
-  const PackedMap& map = map_of(of_pack, map_index);
+  const PackedMap& map = map_at(of_pack, map_index);
   alpha = value_space(map).has_alpha();
   for (auto& level : tiles)
     for (Image& tile : level) tile = to_linear(tile, map.encoding);
 }
 
 GroundTruth GroundTruth::of_level_0(const Pack& pack, int map, WrapMode border) {
-  const std::size_t stored = map_of(pack, map).levels.size();
+  const std::size_t stored = map_at(pack, map).levels.size();
   std::vector<std::vector<Image>> levels;
   for (TileMap& level : mip_chain(tile_set_of(pack), map, {MipMode::box}))
     if (levels.size() < stored) levels.push_back(std::move(level.tiles));
@@ -49,7 +39,7 @@ GroundTruth GroundTruth::of_level_0(const Pack& pack, int map, WrapMode border) 
 
 GroundTruth GroundTruth::of_stored_levels(const Pack& pack, int map, WrapMode border) {
   std::vector<std::vector<Image>> levels;
-  for (const Image& level : map_of(pack, map).levels)
+  for (const Image& level : map_at(pack, map).levels)
     levels.push_back(tiles_at_level(level, pack.layout, pack.tile_size, static_cast<int>(levels.size())));
   return {pack, map, border, std::move(levels)};
 }

@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/wrap.h"
+#include "tilepack/pack/pack_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 const std::vector<PackedMap>& corner_maps(const Pack& pack) {
   if (!pack.corner_pack)
-    throw Error(ErrorKind::usage, "corner pack", "the pack has none; bake it with --corner-pack");
+    throw Error(ErrorKind::usage, "corner pack", "the pack has none; bake it with " + field("corner-pack"));
   return pack.corner_pack->maps;
 }
 
@@ -25,12 +26,7 @@ int in_texels(double coordinate) {
 PackTexels::PackTexels(const Pack& of_pack, const std::vector<PackedMap>& maps, int map_index,
                        int first_level, int last_level)
     : tables(of_pack) {
-  const int count = static_cast<int>(maps.size());
-  if (map_index < 0 || map_index >= count)
-    throw Error(ErrorKind::usage, "map",
-                std::to_string(map_index) + " is not a map of the pack; it has 0.." +
-                    std::to_string(count - 1));
-  map = &maps[static_cast<std::size_t>(map_index)];
+  map = &map_at(maps, map_index);
   alpha = value_space(*map).has_alpha();
   decoded.resize(map->levels.size());
   if (map->encoding == Encoding::linear) return;

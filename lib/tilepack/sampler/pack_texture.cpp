@@ -30,24 +30,8 @@ std::array<double, 4> mean_of(const Pack& pack, int map) {
 
 } // namespace
 
-std::string_view name_of(ViewFilter filter) {
-  switch (filter) {
-  case ViewFilter::trilinear:
-    return "trilinear";
-  case ViewFilter::anisotropic:
-    return "anisotropic";
-  case ViewFilter::ewa:
-    break;
-  }
-  return "elliptical";
-}
-
 ViewFilter view_filter_of(const std::string& name) {
-  for (ViewFilter filter : {ViewFilter::trilinear, ViewFilter::anisotropic, ViewFilter::ewa}) {
-    if (name == name_of(filter)) return filter;
-  }
-  throw Error(ErrorKind::usage, "--filter",
-              "'" + name + "' is no filter of camera views; there are trilinear, anisotropic and elliptical");
+  return enum_called<ViewFilter>(name, field("filter"), "filter of camera views");
 }
 
 Probes probes_for(const Footprint& footprint, Size tile, ViewFilter filter) {

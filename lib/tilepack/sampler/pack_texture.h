@@ -1,11 +1,11 @@
 #pragma once
 
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/sampler/reference_sampler.h"
 #include "tilepack/sampler/texture.h"
 
 #include <array>
 #include <string>
-#include <string_view>
 
 namespace tilepack {
 
@@ -15,7 +15,10 @@ enum class ViewFilter {
   ewa,         ///< the mean over the footprint's ellipse, texel by texel: slow, to hold the others against
 };
 
-std::string_view name_of(ViewFilter filter);        ///< "trilinear", "anisotropic", "elliptical"
+template <>
+inline constexpr auto enum_names<ViewFilter> =
+    std::array{EnumName{ViewFilter::trilinear, "trilinear"}, EnumName{ViewFilter::anisotropic, "anisotropic"},
+               EnumName{ViewFilter::ewa, "elliptical"}};
 ViewFilter view_filter_of(const std::string& name); ///< Error (usage) for an unknown name
 
 /// The lookups that stand for a pixel: `probes` of them, `level` coarse, at

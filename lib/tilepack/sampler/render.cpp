@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/numeric/exact_math.h"
+#include "tilepack/pack/pack_maps.h"
 #include "tilepack/sampler/reference_sampler.h"
 
 #include <tbb/parallel_for.h>
@@ -21,21 +22,14 @@ int output_side(int texels, double scale, const char* way) {
     throw Error(ErrorKind::usage, "",
                 "the picture would be " + std::to_string(static_cast<std::int64_t>(std::min(side, 1e18))) +
                     " pixels " + way + "; at most " + std::to_string(max_render_side) +
-                    " are: take a smaller --rect or --scale, or a coarser --level");
+                    " are: take a smaller " + field("rect") + " or " + field("scale") + ", or a coarser " +
+                    field("level"));
   return static_cast<int>(side);
 }
 
 const PackedMap& map_of(const Pack& pack, int map, int level) {
-  const int maps = static_cast<int>(pack.maps.size());
-  if (map < 0 || map >= maps)
-    throw Error(ErrorKind::usage, "--map",
-                std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
-  const PackedMap& result = pack.maps[static_cast<std::size_t>(map)];
-  const int levels = static_cast<int>(result.levels.size());
-  if (level < 0 || level >= levels)
-    throw Error(ErrorKind::usage, "--level",
-                std::to_string(level) + " is not stored; the pack has levels 0.." +
-                    std::to_string(levels - 1));
+  const PackedMap& result = map_at(pack, map);
+  level_at(result, level);
   return result;
 }
 
@@ -56,11 +50,11 @@ LevelBlend levels_for(const View& view, int stored_levels, const FootprintEllips
 
 Size output_size(const View& view) {
   if (view.rect.width < 1 || view.rect.height < 1)
-    throw Error(ErrorKind::usage, "--rect",
+    throw Error(ErrorKind::usage, field("rect"),
                 std::to_string(view.rect.width) + " x " + std::to_string(view.rect.height) +
                     " texels; both sides must be at least 1");
   if (!(view.scale > 0) || !std::isfinite(view.scale))
-    throw Error(ErrorKind::usage, "--scale",
+    throw Error(ErrorKind::usage, field("scale"),
                 std::to_string(view.scale) + "; it must be a number above 0 (1: a pixel a texel)");
   return {output_side(view.rect.width, view.scale, "wide"),
           output_side(view.rect.height, view.scale, "high")};

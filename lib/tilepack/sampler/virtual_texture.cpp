@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/numeric/wrap.h"
+#include "tilepack/pack/pack_maps.h"
 
 #include <tbb/parallel_for.h>
 
@@ -50,7 +51,7 @@ void copy_bordered_row(const LatticeWords& words, const std::vector<Image>& tile
 
 Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, VirtualRect rect, WrapMode border) {
   if (rect.width < 1 || rect.height < 1)
-    throw Error(ErrorKind::usage, "--rect",
+    throw Error(ErrorKind::usage, field("rect"),
                 std::to_string(rect.width) + " x " + std::to_string(rect.height) +
                     " texels; both sides must be at least 1");
   Image result(rect.width, rect.height, tiles.at(0).channels());
@@ -67,18 +68,8 @@ Image virtual_texture(const Pack& pack, const std::vector<Image>& tiles, Virtual
 }
 
 Image virtual_texture(const Pack& pack, int map, int level, VirtualRect rect) {
-  const int maps = static_cast<int>(pack.maps.size());
-  if (map < 0 || map >= maps)
-    throw Error(ErrorKind::usage, "--map",
-                std::to_string(map) + " is not a map of the pack; it has 0.." + std::to_string(maps - 1));
-  const auto& levels = pack.maps[static_cast<std::size_t>(map)].levels;
-  if (level < 0 || level >= static_cast<int>(levels.size()))
-    throw Error(ErrorKind::usage, "--level",
-                std::to_string(level) + " is not stored; the pack has levels 0.." +
-                    std::to_string(levels.size() - 1));
-  return virtual_texture(
-      pack, tiles_at_level(levels[static_cast<std::size_t>(level)], pack.layout, pack.tile_size, level),
-      rect);
+  const Image& texture = level_at(map_at(pack, map), level);
+  return virtual_texture(pack, tiles_at_level(texture, pack.layout, pack.tile_size, level), rect);
 }
 
 } // namespace tilepack

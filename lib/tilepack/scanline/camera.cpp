@@ -17,7 +17,7 @@ constexpr double farthest = 1e9;
 constexpr int largest_side = 65536;
 
 [[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorKind::usage, "--camera", message);
+  throw Error(ErrorKind::usage, field("camera"), message);
 }
 
 void check(Vec3 place, const char* name) {
@@ -67,7 +67,7 @@ Camera camera_of(const std::string& text) {
 Projection::Projection(const Camera& camera, Size picture) {
   if (std::min(picture.width, picture.height) < 1 || std::max(picture.width, picture.height) > largest_side) {
     throw Error(
-        ErrorKind::usage, "--size",
+        ErrorKind::usage, field("size"),
         fmt::format("{} x {} pixels; each side may be 1..{}", picture.width, picture.height, largest_side));
   }
   check(camera.eye, "the eye");

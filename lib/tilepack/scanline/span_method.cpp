@@ -15,9 +15,6 @@
 namespace tilepack {
 namespace {
 
-constexpr std::array<std::string_view, 8> names = {"exact",         "euler1",         "euler2", "newton",
-                                                   "newton-direct", "newton-general", "affine", "estimate"};
-
 constexpr double ln2 = 0.69314718055994530942;
 
 // Whether roundings add up from step to step.
@@ -143,24 +140,8 @@ Real reciprocal_by_bits(Real x, Real start, int steps) {
 
 } // namespace
 
-std::string_view name_of(SpanMethod method) {
-  return names[static_cast<std::size_t>(method)];
-}
-
-std::string_view name_of(SpanPrecision precision) {
-  return precision == SpanPrecision::f32 ? "f32" : "f64";
-}
-
 SpanMethod span_method_of(const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<SpanMethod>(found - names.begin());
-  std::string known;
-  for (const auto& each : names) known += (known.empty() ? "" : ", ") + std::string(each);
-  const std::vector<std::string> list(names.begin(), names.end());
-  const std::string near = nearest_name(name, list);
-  throw Error(ErrorKind::usage, "--span",
-              "'" + name + "' is no method" + (near.empty() ? "" : ", did you mean '" + near + "'?") +
-                  "; there are " + known);
+  return enum_called<SpanMethod>(name, field("span"), "method");
 }
 
 double method_bound(SpanMethod method, double distance, int steps) {
@@ -234,7 +215,7 @@ double estimated_reciprocal(double x) {
 
 void check_reseed(const SpanOptions& options) {
   if (options.reseed >= 0 && options.reseed <= max_span_pixels) return;
-  throw Error(ErrorKind::usage, "--reseed",
+  throw Error(ErrorKind::usage, field("reseed"),
               std::to_string(options.reseed) + " is out of range; give 1 to " +
                   std::to_string(max_span_pixels) + " pixels, or 0 for the first pixel only");
 }

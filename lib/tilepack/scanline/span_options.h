@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/scanline/span.h"
 
 #include <string>
@@ -24,14 +25,24 @@ enum class SpanMethod {
                   ///< precision; no error but rounding, the same bits on every processor
 };
 
-/// "exact", "euler1", "euler2", "newton", "newton-direct", "newton-general", "affine", "estimate".
-std::string_view name_of(SpanMethod method);
+template <>
+inline constexpr auto enum_names<SpanMethod> =
+    std::array{EnumName{SpanMethod::exact, "exact"},
+               EnumName{SpanMethod::euler1, "euler1"},
+               EnumName{SpanMethod::euler2, "euler2"},
+               EnumName{SpanMethod::newton, "newton"},
+               EnumName{SpanMethod::newton_direct, "newton-direct"},
+               EnumName{SpanMethod::newton_general, "newton-general"},
+               EnumName{SpanMethod::affine, "affine"},
+               EnumName{SpanMethod::estimate, "estimate"}};
 
 /// The method of that name; Error (usage) that names the nearest one.
 SpanMethod span_method_of(const std::string& name);
 
 enum class SpanPrecision { f32, f64 };
-std::string_view name_of(SpanPrecision precision); ///< "f32", "f64"
+template <>
+inline constexpr auto enum_names<SpanPrecision> =
+    std::array{EnumName{SpanPrecision::f32, "f32"}, EnumName{SpanPrecision::f64, "f64"}};
 
 struct SpanOptions {
   SpanMethod method = SpanMethod::exact;

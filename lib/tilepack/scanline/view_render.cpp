@@ -28,7 +28,7 @@ ViewRenderer::ViewRenderer(const Texture& of_texture, const Scene& of_scene, con
   const bool finite = std::all_of(options.background.begin(), options.background.end(),
                                   [](float value) { return std::isfinite(value); });
   if (options.background.size() != count || !finite) {
-    throw Error(ErrorKind::usage, "--background",
+    throw Error(ErrorKind::usage, field("background"),
                 std::to_string(options.background.size()) +
                     (options.background.size() == 1 ? " value" : " values") +
                     (finite ? "" : ", not all finite") + "; the map has " + std::to_string(count) +

@@ -1,5 +1,7 @@
 #include "tilepack/synth/frame.h"
 
+#include "tilepack/tileset/border_colors.h"
+
 #include <algorithm>
 
 namespace tilepack {
@@ -21,8 +23,10 @@ FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, 
     for (int first = 0; first < k; ++first)
       for (int second = 0; second < k; ++second) shape.horizontal.push_back({first, second});
     shape.vertical = shape.horizontal;
-    for (const CornerTile& t : complete_corner_set(k))
-      shape.tiles.push_back({t.nw * k + t.ne, t.ne * k + t.se, t.sw * k + t.se, t.nw * k + t.sw});
+    for (const CornerTile& t : complete_corner_set(k)) {
+      const BorderColors b = borders_of(t, k); // indices of shape.horizontal and vertical
+      shape.tiles.push_back({b.north, b.east, b.south, b.west});
+    }
   } else {
     shape.corners = 1;
     shape.horizontal.resize(static_cast<std::size_t>(options.colors.horizontal));

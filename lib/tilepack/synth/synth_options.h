@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/image/image.h"
+#include "tilepack/numeric/enum_names.h"
 #include "tilepack/tileset/tile_colors.h"
 
 #include <cstdint>
@@ -13,6 +14,11 @@ enum class Construction {
           ///< diagonals
   framed, ///< strips along the edges are shared; each tile's inside is its own window of the sample
 };
+
+/// As options have them.
+template <>
+inline constexpr auto enum_names<Construction> =
+    std::array{EnumName{Construction::framed, "patch"}, EnumName{Construction::quilt, "quilt"}};
 
 struct SynthOptions {
   Size tile_size{128, 128}; ///< texels, each side 4..4096 and at most the sample's

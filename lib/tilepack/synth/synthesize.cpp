@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/synth/framed_set.h"
 #include "tilepack/synth/quilt.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
 
@@ -11,35 +12,31 @@
 namespace tilepack {
 namespace {
 
-constexpr int smallest_tile = 4;
-constexpr int largest_tile = 4096;
-constexpr int most_edge_colors = 8;
-constexpr int most_corner_colors = 4;
-constexpr int highest_effort = 9;
-
-void require_in_range(const char* option, int value, int low, int high, const char* way_out) {
+void require_in_range(const char* name, int value, int low, int high, const char* way_out) {
   if (value < low || value > high)
-    throw Error(ErrorKind::usage, option, fmt::format("{} is not in {}..{}; {}", value, low, high, way_out));
+    throw Error(ErrorKind::usage, field(name),
+                fmt::format("{} is not in {}..{}; {}", value, low, high, way_out));
 }
 
 void require_valid(const SynthOptions& options) {
   for (const int side : {options.tile_size.width, options.tile_size.height})
-    require_in_range("--tile-size", side, smallest_tile, largest_tile,
+    require_in_range("tile-size", side, limits::smallest_tile_side_made, limits::largest_tile_side,
                      "give each side in texels, such as 128");
   if (options.coloring == Coloring::edge) {
     for (const int colors : {options.colors.horizontal, options.colors.vertical})
-      require_in_range("--colors", colors, 1, most_edge_colors, "2 or 3 suit most textures");
+      require_in_range("colors", colors, 1, limits::most_edge_colors, "2 or 3 suit most textures");
   } else {
-    require_in_range("--colors", options.colors.corner, 1, most_corner_colors,
+    require_in_range("colors", options.colors.corner, 1, limits::most_corner_colors,
                      "2 or 3 suit most textures; edge coloring allows 8");
     if (options.interior == Construction::quilt)
-      throw Error(ErrorKind::usage, "--interior",
-                  "quilt is made for edge coloring only; use --interior patch or --coloring edge");
+      throw Error(ErrorKind::usage, field("interior"),
+                  "quilt is made for edge coloring only; use " + field("interior", "patch") + " or " +
+                      field("coloring", "edge"));
   }
   const int smaller_side = std::min(options.tile_size.width, options.tile_size.height);
-  require_in_range("--guard", options.guard, 0, smaller_side / 8,
+  require_in_range("guard", options.guard, 0, smaller_side / limits::guard_share_made,
                    "a guard takes at most an eighth of the tile");
-  require_in_range("--effort", options.effort, 0, highest_effort, "5 is the default");
+  require_in_range("effort", options.effort, 0, limits::highest_effort, "5 is the default");
 }
 
 void require_one_size(std::span<const SampleMap> samples) {
@@ -57,9 +54,10 @@ void require_fitting(const std::string& name, Size size, Size tile) {
   if (size.width >= tile.width && size.height >= tile.height) return;
   const int fits = std::min(size.width, size.height);
   const std::string way_out =
-      fits >= smallest_tile
-          ? fmt::format("the largest square tile that fits is {}", std::min(fits, largest_tile))
-          : fmt::format("no tile fits, since a tile has at least {} texels a side", smallest_tile);
+      fits >= limits::smallest_tile_side_made
+          ? fmt::format("the largest square tile that fits is {}", std::min(fits, limits::largest_tile_side))
+          : fmt::format("no tile fits, since a tile has at least {} texels a side",
+                        limits::smallest_tile_side_made);
   throw Error(ErrorKind::invalid_content, name,
               fmt::format("{} x {} texels are too few for a tile of {} x {}; {}", size.width, size.height,
                           tile.width, tile.height, way_out));

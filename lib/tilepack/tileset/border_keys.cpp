@@ -1,20 +1,22 @@
 #include "tilepack/tileset/border_keys.h"
 
+#include "tilepack/tileset/border_colors.h"
+
 namespace tilepack {
 namespace {
 
-constexpr int most_colors = 64; // far above the format's limit of 8
-
-int pair(int first, int second) {
-  return first * most_colors + second;
+std::array<int, 4> corners_of(const EdgeTile&) {
+  return {};
 }
 
-BorderKeys keys_of(const EdgeTile& t) {
-  return {{t.north, t.east, t.south, t.west}, {}};
+std::array<int, 4> corners_of(const CornerTile& t) {
+  return {t.nw, t.ne, t.sw, t.se};
 }
 
-BorderKeys keys_of(const CornerTile& t) {
-  return {{pair(t.nw, t.ne), pair(t.ne, t.se), pair(t.sw, t.se), pair(t.nw, t.sw)}, {t.nw, t.ne, t.sw, t.se}};
+template <typename Tile>
+BorderKeys keys_of(const Tile& tile) {
+  const BorderColors b = borders_of(tile);
+  return {{b.north, b.east, b.south, b.west}, corners_of(tile)};
 }
 
 } // namespace

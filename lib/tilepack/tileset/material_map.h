@@ -2,6 +2,7 @@
 
 #include "tilepack/image/encoding.h"
 #include "tilepack/image/image.h"
+#include "tilepack/numeric/enum_names.h"
 
 #include <string>
 #include <string_view>
@@ -19,7 +20,16 @@ enum class Role {
   data,      ///< anything else: masks, packed channels, occlusion; plain average
 };
 
-std::string_view name_of(Role role);
+template <>
+inline constexpr auto enum_names<Role> =
+    std::array{EnumName{Role::color, "color"}, EnumName{Role::normal, "normal"},
+               EnumName{Role::roughness, "roughness"}, EnumName{Role::height, "height"},
+               EnumName{Role::data, "data"}};
+
+/// Whether a map of that many channels has alpha, its last, which weighs what it stands beside.
+constexpr bool has_alpha(Role role, int channels) {
+  return role == Role::color && color_channels(channels) != channels;
+}
 
 /// What a map is called, what its values mean and how they are stored: the same whether it is a sample, cut
 /// into tiles or laid out in a pack.

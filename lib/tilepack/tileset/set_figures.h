@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/tileset/limits.h"
+
 #include <array>
 #include <string_view>
 
@@ -43,7 +45,7 @@ inline constexpr std::array<SetFigureField, 11> set_figure_fields{{
     {"coverage", &SetFigures::coverage, 1},
     {"fresh", &SetFigures::fresh, 1},
     {"shown_often", &SetFigures::shown_often, 1},
-    {"distinct_tiles", &SetFigures::distinct_tiles, 4096},
+    {"distinct_tiles", &SetFigures::distinct_tiles, limits::most_tiles},
     {"histogram_distance", &SetFigures::histogram_distance, 1},
 }};
 

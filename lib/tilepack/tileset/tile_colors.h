@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/numeric/enum_names.h"
+
 #include <variant>
 #include <vector>
 
@@ -7,6 +9,10 @@ namespace tilepack {
 
 /// What neighbours must agree on: the colors of the edge between them, or of the corners at its ends.
 enum class Coloring { edge, corner };
+
+template <>
+inline constexpr auto enum_names<Coloring> =
+    std::array{EnumName{Coloring::edge, "edge"}, EnumName{Coloring::corner, "corner"}};
 
 /// The edge colors of a tile: integers 0..K-1, horizontal edges (north, south) and vertical ones (west, east)
 /// numbered apart.

@@ -24,7 +24,7 @@ struct ValueSpace {
   int channels = 0; ///< 1..4
 
   /// The last channel is alpha, which weighs the others.
-  bool has_alpha() const { return role == Role::color && color_channels(channels) < channels; }
+  bool has_alpha() const { return tilepack::has_alpha(role, channels); }
   /// The first three channels are a vector n, stored as n * 0.5 + 0.5.
   bool has_vectors() const { return role == Role::normal && channels >= 3; }
 };
