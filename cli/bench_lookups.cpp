@@ -1,8 +1,9 @@
 #include "bench_lookups.h"
 
 #include "jobs.h"
-#include "output_file.h"
 
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/text_file.h"
 #include "tilepack/bench/bench.h"
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"

@@ -1,9 +1,10 @@
 #include "bench_lookups.h"
 #include "jobs.h"
-#include "output_file.h"
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/text_file.h"
 #include "tilepack/bench/span_bench.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/report/span_bench_page.h"

@@ -1,7 +1,8 @@
-#include "output_file.h"
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/text_file.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/measure/comparison.h"
 #include "tilepack/pack/pack_read.h"

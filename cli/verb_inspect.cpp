@@ -1,7 +1,8 @@
-#include "output_file.h"
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/text_file.h"
 #include "tilepack/error/nearest_name.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/mapping/index_json.h"

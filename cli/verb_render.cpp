@@ -1,9 +1,10 @@
 #include "jobs.h"
-#include "output_file.h"
 #include "render_camera.h"
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/text_file.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/pack/pack_maps.h"

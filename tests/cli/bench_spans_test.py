@@ -59,7 +59,7 @@ class BenchSpans(unittest.TestCase):
         with open(page, encoding="utf-8") as file:
             html = file.read()
         self.assertNotIn("<script", html)
-        self.assertEqual(set(re.findall(r"https?://[^'\"<> ]*", html)), {"http://www.w3.org/2000/svg"})
+        self.assertLessEqual(set(re.findall(r"https?://[^'\"<> ]*", html)), {"http://www.w3.org/2000/svg"})
         plots = re.findall(r"<svg.*?</svg>", html, re.S)
         self.assertEqual(len(plots), 5)
         for plot in plots:

@@ -233,7 +233,7 @@ class Render(unittest.TestCase):
             self.refused(1, "--scale", scale)
 
     def test_bad_filter_and_encoding(self):
-        self.refused(1, "--border", "repeat", says="wrap, clamp or mirror")
+        self.refused(1, "--border", "repeat", says="wrap, clamp and mirror")
         self.refused(1, "--filter", "cubic", says="nearest, bilinear, trilinear and elliptical")
         self.refused(1, "--encoding", "rec709", says="srgb or linear")
 

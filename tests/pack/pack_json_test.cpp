@@ -183,8 +183,9 @@ TEST_CASE("figures of the synthesis are optional, and all or none", "[pack]") {
 TEST_CASE("sizes that multiply past the limits are refused before any memory is taken", "[pack]") {
   json huge = json::parse(pack_json(described(test::noise_pack())));
   huge["tile_size"] = {limits::largest_tile_side, limits::largest_tile_side};
+  huge["layout"]["columns"] = 5; // 4 would just be allowed
   huge["mips"]["tile_levels"] = 1;
-  for (auto& map : huge["maps"]) map["levels"] = {{{"file", map["name"]}, {"size", {16384, 16384}}}};
+  for (auto& map : huge["maps"]) map["levels"] = {{{"file", map["name"]}, {"size", {20480, 16384}}}};
   CHECK_FALSE(accepted(huge));
   huge["layout"]["columns"] = huge["layout"]["rows"] = 4096;
   for (auto& map : huge["maps"]) map["levels"][0]["size"] = {16777216, 16777216};

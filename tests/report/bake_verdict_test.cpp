@@ -260,12 +260,13 @@ TEST_CASE("a remark tells programs what it means and what to turn", "[bake_verdi
   facts.report.figures.cut_mean = 30;
   CHECK(cure_of(facts, "cuts-seen") == Cure{"effort", "9"});
   facts.synth.effort = 9;
-  CHECK(cure_of(facts, "cuts-seen") == Cure{"seed", ""});
+  CHECK(cure_of(facts, "cuts-seen") == Cure{"tile-size", "256"});
   facts.nature.shading = 0.03;
   facts.flat_drift = 0.004;
   CHECK(cure_of(facts, "shading") == Cure{"flatten", "100"});
   facts.sample = {256, 256};
   CHECK(cure_of(facts, "sample-small") == Cure{"tile-size", "64"});
+  CHECK(cure_of(facts, "cuts-seen") == Cure{"seed", ""});
 }
 
 TEST_CASE("flattening is advised where it helps", "[bake_verdict]") {
