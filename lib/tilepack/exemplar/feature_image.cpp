@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace tilepack {
 namespace {
@@ -13,6 +15,7 @@ struct Curve {
   double mean = 0.0;
   double low = 0.0;
   double scale = 255.0;
+  double most = 255.0; // what lies beyond it is as good as it
 };
 
 struct Source {
@@ -47,17 +50,53 @@ std::uint8_t feature(const Source& source, std::span<const float> texel) {
   v *= source.curve.scale;
   if (source.alpha >= 0)
     v *= std::clamp(static_cast<double>(texel[static_cast<std::size_t>(source.alpha)]), 0.0, 1.0);
-  return static_cast<std::uint8_t>(std::clamp(v + 0.5, 0.0, 255.0));
+  return static_cast<std::uint8_t>(std::clamp(v + 0.5, 0.0, source.curve.most));
 }
 
-double mean_of_positive(const Image& image, int channels) {
+// The value below which `share` of an image's values lie, those of the first `channels` channels. Of a large image
+// evenly spread texels are asked.
+double quantile(const Image& image, int channels, double share) {
+  constexpr std::size_t most_texels = 250'000;
+  const std::size_t texels =
+      static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+  const std::size_t step = (texels + most_texels - 1) / most_texels;
+  std::vector<float> values;
+  for (std::size_t i = 0; i < texels; i += step) {
+    const auto texel = image.texel(static_cast<int>(i % static_cast<std::size_t>(image.width())),
+                                   static_cast<int>(i / static_cast<std::size_t>(image.width())));
+    values.insert(values.end(), texel.begin(), texel.begin() + channels);
+  }
+  const auto nth =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), nth, values.end());
+  return static_cast<double>(*nth);
+}
+
+// A few texels that are much brighter than all others (sparks, suns, faults of a camera) say nothing of the
+// brightness of a sample: values count up to `clipped`.
+constexpr double usual_share = 0.99;
+
+double mean_of_positive(const Image& image, int channels, double clipped) {
   double sum = 0.0;
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {
       const auto texel = image.texel(x, y);
-      for (int c = 0; c < channels; ++c) sum += std::max(0.0f, texel[static_cast<std::size_t>(c)]);
+      for (int c = 0; c < channels; ++c)
+        sum += std::clamp(static_cast<double>(texel[static_cast<std::size_t>(c)]), 0.0, clipped);
     }
   return sum / (static_cast<double>(image.width()) * image.height() * channels);
+}
+
+// The range of nearly all values, and a quarter of it to either side where there are any: what lies farther out is
+// as good as there.
+std::pair<double, double> usual_range(const Image& image) {
+  const auto [low, high] = std::minmax_element(image.data().begin(), image.data().end());
+  const double from = quantile(image, image.channels(), 1.0 - usual_share);
+  const double to = quantile(image, image.channels(), usual_share);
+  const double spare = (to - from) / 4.0;
+  if (!(spare > 0.0)) return {static_cast<double>(*low), static_cast<double>(*high)};
+  return {std::max(static_cast<double>(*low), from - spare),
+          std::min(static_cast<double>(*high), to + spare)};
 }
 
 void add_sources(const SampleMap& map, std::vector<Source>& sources) {
@@ -69,11 +108,13 @@ void add_sources(const SampleMap& map, std::vector<Source>& sources) {
   curve.scale = 255.0 * weight;
   if (map.role == Role::color && map.encoding == Encoding::linear) {
     curve.compressed = true;
-    curve.mean = std::max(mean_of_positive(image, plain_channels), 1e-30);
+    const double clipped = std::max(4.0 * quantile(image, plain_channels, usual_share), 0.0);
+    curve.mean = std::max(mean_of_positive(image, plain_channels, clipped), 1e-30);
   } else if (map.role == Role::height) {
-    const auto [low, high] = std::minmax_element(image.data().begin(), image.data().end());
-    curve.low = static_cast<double>(*low);
-    curve.scale = *high > *low ? 255.0 * weight / (static_cast<double>(*high) - curve.low) : 0.0;
+    const auto [low, high] = usual_range(image);
+    curve.low = low;
+    curve.most = 255.0 * weight;
+    curve.scale = high > low ? 255.0 * weight / (high - low) : 0.0;
   }
   for (int c = 0; c < plain_channels; ++c) sources.push_back({&image, c, alpha ? plain_channels : -1, curve});
   if (alpha) {
@@ -115,7 +156,7 @@ FeatureImage feature_image(std::span<const SampleMap> samples) {
 }
 
 FeatureImage halved(const FeatureImage& image) {
-  FeatureImage result{image.width / 2, image.height / 2, image.channels, {}};
+  FeatureImage result{image.width / 2, image.height / 2, image.channels, {}, image.guides, image.flat_seam};
   const std::size_t row = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.channels);
   result.values.resize(row * static_cast<std::size_t>(result.height));
   tbb::parallel_for(0, result.height, [&](int y) {

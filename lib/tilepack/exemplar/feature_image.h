@@ -28,6 +28,8 @@ struct FeatureImage {
   int height = 0;
   int channels = 0;                 ///< 1..max_feature_channels
   std::vector<std::uint8_t> values; ///< row by row, channels interleaved
+  int guides = 0; ///< of the channels, the last so many: they guide comparisons, but nothing is seen of them
+  int flat_seam = 0; ///< with guides: what a seam costs beyond its difference where the last channel is 255
 
   const std::uint8_t* texel(int x, int y) const {
     return values.data() +

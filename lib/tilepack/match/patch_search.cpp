@@ -2,6 +2,8 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tilepack {
@@ -23,13 +25,17 @@ void Overlap::add(int x, int y, const std::uint8_t* texel, int texel_weight) {
 }
 
 struct PatchSearch::Spectra {
+  struct Part {
+    Rect area;    // of the image
+    int rows = 0; // of the padded transform
+    int columns = 0;
+    std::vector<cv::Mat> channel; // one a channel
+    cv::Mat squares;              // of the sum over channels of squares
+  };
   int width = 0;
   int height = 0;
   int channels = 0;
-  int rows = 0; // of the padded transform
-  int columns = 0;
-  std::vector<cv::Mat> channel; // of the image, one a channel
-  cv::Mat squares;              // of the sum over channels of squares
+  std::vector<Part> parts;
 };
 
 namespace {
@@ -45,32 +51,55 @@ std::int64_t nearest_integer(double v) {
   return static_cast<std::int64_t>((v + shift) - shift);
 }
 
+// The whole image, or the middles of its quarters.
+std::vector<Rect> searched_parts(const FeatureImage& image, Size largest_patch, std::int64_t most_texels) {
+  const double texels = static_cast<double>(image.width) * image.height;
+  if (texels <= static_cast<double>(most_texels)) return {{0, 0, image.width, image.height}};
+  const double share = std::sqrt(static_cast<double>(most_texels) / 4.0 / texels);
+  const auto side = [&](int whole, int patch) {
+    return std::min(whole, std::max(static_cast<int>(whole * share), 2 * patch));
+  };
+  const int w = side(image.width, largest_patch.width);
+  const int h = side(image.height, largest_patch.height);
+  std::vector<Rect> parts;
+  for (const int y : {1, 3})
+    for (const int x : {1, 3})
+      parts.push_back({std::clamp(x * image.width / 4 - w / 2, 0, image.width - w),
+                       std::clamp(y * image.height / 4 - h / 2, 0, image.height - h), w, h});
+  return parts;
+}
+
 } // namespace
 
-PatchSearch::PatchSearch(const FeatureImage& image) : spectra(std::make_unique<Spectra>()) {
+PatchSearch::PatchSearch(const FeatureImage& image, Size largest_patch, std::int64_t most_texels)
+    : spectra(std::make_unique<Spectra>()) {
   Spectra& s = *spectra;
   s.width = image.width;
   s.height = image.height;
   s.channels = image.channels;
-  s.rows = cv::getOptimalDFTSize(image.height);
-  s.columns = cv::getOptimalDFTSize(image.width);
-  for (int c = -1; c < image.channels; ++c) {
-    cv::Mat plane(s.rows, s.columns, CV_64F, cv::Scalar(0));
-    for (int y = 0; y < image.height; ++y) {
-      double* row = plane.ptr<double>(y);
-      for (int x = 0; x < image.width; ++x) {
-        const std::uint8_t* texel = image.texel(x, y);
-        if (c >= 0) {
-          row[x] = texel[c];
-        } else {
-          int sum = 0;
-          for (int i = 0; i < image.channels; ++i) sum += texel[i] * texel[i];
-          row[x] = sum;
+  for (const Rect& area : searched_parts(image, largest_patch, most_texels)) {
+    Spectra::Part& part = s.parts.emplace_back();
+    part.area = area;
+    part.rows = cv::getOptimalDFTSize(area.height);
+    part.columns = cv::getOptimalDFTSize(area.width);
+    for (int c = -1; c < image.channels; ++c) {
+      cv::Mat plane(part.rows, part.columns, CV_64F, cv::Scalar(0));
+      for (int y = 0; y < area.height; ++y) {
+        double* row = plane.ptr<double>(y);
+        for (int x = 0; x < area.width; ++x) {
+          const std::uint8_t* texel = image.texel(area.x + x, area.y + y);
+          if (c >= 0) {
+            row[x] = texel[c];
+          } else {
+            int sum = 0;
+            for (int i = 0; i < image.channels; ++i) sum += texel[i] * texel[i];
+            row[x] = sum;
+          }
         }
       }
+      forward(plane, area.height);
+      (c >= 0 ? part.channel.emplace_back() : part.squares) = plane;
     }
-    forward(plane, image.height);
-    (c >= 0 ? s.channel.emplace_back() : s.squares) = plane;
   }
 }
 
@@ -78,33 +107,39 @@ PatchSearch::~PatchSearch() = default;
 
 PositionMap PatchSearch::mismatches(const Overlap& overlap) const {
   const Spectra& s = *spectra;
-  // sum w |S - v|² = (S² ⋆ w) - 2 sum over channels (S ⋆ w v) + constant, ⋆ a correlation. Positions at which
-  // the patch would wrap round the padded image are not read.
-  cv::Mat total(s.rows, s.columns, CV_64F, cv::Scalar(0));
-  cv::Mat plane(s.rows, s.columns, CV_64F);
-  cv::Mat product;
-  for (int c = -1; c < s.channels; ++c) {
-    plane.setTo(0);
-    std::size_t i = 0;
-    for (int y = 0; y < overlap.height; ++y) {
-      double* row = plane.ptr<double>(y);
-      for (int x = 0; x < overlap.width; ++x, ++i)
-        row[x] = c < 0 ? overlap.weight[i]
-                       : -2.0 * overlap.weighted[i * static_cast<std::size_t>(s.channels) +
-                                                 static_cast<std::size_t>(c)];
-    }
-    forward(plane, overlap.height);
-    const cv::Mat& image = c < 0 ? s.squares : s.channel[static_cast<std::size_t>(c)];
-    cv::mulSpectrums(image, plane, product, 0, true);
-    total += product;
-  }
   PositionMap map{s.width - overlap.width + 1, s.height - overlap.height + 1, {}};
-  cv::dft(total, total, cv::DFT_INVERSE | cv::DFT_SCALE, map.height);
-  map.values.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
-  std::size_t i = 0;
-  for (int y = 0; y < map.height; ++y) {
-    const double* row = total.ptr<double>(y);
-    for (int x = 0; x < map.width; ++x) map.values[i++] = nearest_integer(row[x]) + overlap.constant;
+  map.values.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height), ruled_out);
+  for (const Spectra::Part& part : s.parts) {
+    // sum w |S - v|² = (S² ⋆ w) - 2 sum over channels (S ⋆ w v) + constant, ⋆ a correlation. Positions at
+    // which the patch would wrap round the padded image are not read.
+    cv::Mat total(part.rows, part.columns, CV_64F, cv::Scalar(0));
+    cv::Mat plane(part.rows, part.columns, CV_64F);
+    cv::Mat product;
+    for (int c = -1; c < s.channels; ++c) {
+      plane.setTo(0);
+      std::size_t i = 0;
+      for (int y = 0; y < overlap.height; ++y) {
+        double* row = plane.ptr<double>(y);
+        for (int x = 0; x < overlap.width; ++x, ++i)
+          row[x] = c < 0 ? overlap.weight[i]
+                         : -2.0 * overlap.weighted[i * static_cast<std::size_t>(s.channels) +
+                                                   static_cast<std::size_t>(c)];
+      }
+      forward(plane, overlap.height);
+      const cv::Mat& image = c < 0 ? part.squares : part.channel[static_cast<std::size_t>(c)];
+      cv::mulSpectrums(image, plane, product, 0, true);
+      total += product;
+    }
+    const int high = part.area.height - overlap.height + 1;
+    const int wide = part.area.width - overlap.width + 1;
+    cv::dft(total, total, cv::DFT_INVERSE | cv::DFT_SCALE, high);
+    for (int y = 0; y < high; ++y) {
+      const double* row = total.ptr<double>(y);
+      std::int64_t* values = map.values.data() +
+                             static_cast<std::size_t>(part.area.y + y) * static_cast<std::size_t>(map.width) +
+                             static_cast<std::size_t>(part.area.x);
+      for (int x = 0; x < wide; ++x) values[x] = nearest_integer(row[x]) + overlap.constant;
+    }
   }
   return map;
 }

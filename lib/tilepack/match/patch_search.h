@@ -52,7 +52,13 @@ constexpr std::int64_t ruled_out = std::numeric_limits<std::int64_t>::max();
 /// texels and the largest weights used, so rounding restores the exact sum on any processor with any library.
 class PatchSearch {
 public:
-  explicit PatchSearch(const FeatureImage& image);
+  /// All of the image.
+  explicit PatchSearch(const FeatureImage& image)
+      : PatchSearch(image, {0, 0}, std::numeric_limits<std::int64_t>::max()) {}
+
+  /// Of an image of more than `most_texels` texels only the middles of its four quarters, of so many texels
+  /// together, and at least twice as wide and as high as the largest patch. Positions elsewhere are ruled out.
+  PatchSearch(const FeatureImage& image, Size largest_patch, std::int64_t most_texels);
   ~PatchSearch();
   PatchSearch(const PatchSearch&) = delete;
   PatchSearch& operator=(const PatchSearch&) = delete;

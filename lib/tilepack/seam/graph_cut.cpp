@@ -21,12 +21,13 @@ public:
         static_cast<std::size_t>(patch.area.width) * static_cast<std::size_t>(patch.area.height);
     node.resize(count);
     unsigned free_count = 0;
-    for (std::size_t i = 0; i < count; ++i) free_count += patch.constraints[i] == CutConstraint::free;
+    for (const CutConstraint c : patch.constraints)
+      free_count += c == CutConstraint::free || c == CutConstraint::unbiased;
     graph.create(free_count, 2 * free_count + 1);
     for (std::size_t i = 0; i < count; ++i)
-      node[i] = patch.constraints[i] == CutConstraint::free   ? graph.addVtx()
-                : patch.constraints[i] == CutConstraint::take ? taken
-                                                              : kept;
+      node[i] = patch.constraints[i] == CutConstraint::take   ? taken
+                : patch.constraints[i] == CutConstraint::keep ? kept
+                                                              : graph.addVtx();
     nodes = static_cast<int>(free_count);
   }
 
@@ -41,7 +42,9 @@ public:
   }
 
   void add_bias(std::int64_t bias) {
-    for (int n = 0; n < nodes; ++n) graph.addTermWeights(n, 0.0, static_cast<double>(bias));
+    for (std::size_t i = 0; i < node.size(); ++i)
+      if (patch.constraints[i] == CutConstraint::free)
+        graph.addTermWeights(node[i], 0.0, static_cast<double>(bias));
   }
 
   // The seam between texel p = (x, y) and its neighbour q at p + (dx, dy), for the four ways to keep or take.

@@ -10,9 +10,10 @@ namespace tilepack {
 
 /// What laying a patch may do with a texel.
 enum class CutConstraint : std::uint8_t {
-  keep, ///< it stays as it is
-  free, ///< the cut decides
-  take, ///< it takes the new material
+  keep,     ///< it stays as it is
+  free,     ///< the cut decides
+  unbiased, ///< the cut decides, and `bias` is not paid
+  take,     ///< it takes the new material
 };
 
 /// New material laid over part of a canvas: texel (x, y) of the canvas would show sample texel origin + (x,

@@ -9,8 +9,12 @@ std::int64_t seam_cost(const FeatureImage& image, SourceTexel p_source, SourceTe
   const std::uint8_t* q_shown = image.texel(q_source.x, q_source.y);
   const std::uint8_t* p_other = image.clamped_texel(q_source.x - dx, q_source.y - dy);
   const std::uint8_t* q_other = image.clamped_texel(p_source.x + dx, p_source.y + dy);
-  return squared_difference(p_shown, p_other, image.channels) +
-         squared_difference(q_shown, q_other, image.channels);
+  const std::int64_t difference = squared_difference(p_shown, p_other, image.channels) +
+                                  squared_difference(q_shown, q_other, image.channels);
+  if (image.flat_seam == 0) return difference;
+  const int last = image.channels - 1;
+  const std::int64_t flat = p_shown[last] + q_shown[last] + p_other[last] + q_other[last];
+  return difference + image.flat_seam * flat / (4 * 255);
 }
 
 namespace {

@@ -15,7 +15,8 @@ int step(const std::uint8_t* a, const std::uint8_t* b, int channels) {
 int step_at(const FeatureImage& image, const StripAxes& axes, SourceTexel place, int along) {
   const SourceTexel before = sum(place, axes.at(along, axes.reach - 1));
   const SourceTexel after = sum(place, axes.at(along, axes.reach));
-  return step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y), image.channels);
+  return step(image.clamped_texel(before.x, before.y), image.clamped_texel(after.x, after.y),
+              image.channels - image.guides);
 }
 
 } // namespace
@@ -26,7 +27,7 @@ double mean_step(const FeatureImage& image, Direction direction) {
   std::int64_t total = 0;
   for (int y = dy; y < image.height; ++y)
     for (int x = dx; x < image.width; ++x)
-      total += step(image.texel(x - dx, y - dy), image.texel(x, y), image.channels);
+      total += step(image.texel(x - dx, y - dy), image.texel(x, y), image.channels - image.guides);
   return static_cast<double>(total) / (static_cast<double>(image.width - dx) * (image.height - dy));
 }
 

@@ -1,5 +1,6 @@
 #include "tilepack/synth/frame.h"
 
+#include "tilepack/synth/framed_set_settings.h"
 #include "tilepack/tileset/border_colors.h"
 
 #include <algorithm>
@@ -47,8 +48,20 @@ FrameShape halved(const FrameShape& shape, int times) {
   return small;
 }
 
+namespace {
+
+int distance_to_border(Size tile, int x, int y) {
+  return std::min({x, y, tile.width - 1 - x, tile.height - 1 - y});
+}
+
+} // namespace
+
 bool in_guard(const FrameShape& shape, int x, int y) {
-  return std::min({x, y, shape.tile.width - 1 - x, shape.tile.height - 1 - y}) < shape.guard;
+  return distance_to_border(shape.tile, x, y) < shape.guard;
+}
+
+bool near_border(const FrameShape& shape, int x, int y) {
+  return distance_to_border(shape.tile, x, y) < shape.reach / unbiased_part;
 }
 
 } // namespace tilepack

@@ -74,4 +74,8 @@ constexpr SourceTexel no_source{-1, -1};
 /// outside of the tile.
 bool in_guard(const FrameShape& shape, int x, int y);
 
+/// Whether a texel lies so near a border of its tile (a part of the reach, see unbiased_part) that cuts are not
+/// drawn towards it: a cut that hugs the border would be seen as a line.
+bool near_border(const FrameShape& shape, int x, int y);
+
 } // namespace tilepack

@@ -1,14 +1,14 @@
 #include "tilepack/seam/graph_cut.h"
 #include "tilepack/synth/frame.h"
 #include "tilepack/synth/strip_axes.h"
+#include "tilepack/synth/strip_join.h"
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace tilepack {
 
-namespace {
-
-// The canvas of a strip whose window lies at `place`, its corner patches cut into it.
 SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
                           SourceTexel place, SourceTexel first, SourceTexel second) {
   SourceCanvas canvas(axes.width(), axes.height());
@@ -16,7 +16,7 @@ SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, co
     for (int x = 0; x < canvas.width; ++x) canvas.at(x, y) = {place.x + x, place.y + y};
   for (const End end : {End::first, End::second}) {
     const SourceTexel start = axes.at(end == End::first ? 0 : axes.length - shape.corner_reach, 0);
-    const SourceTexel extent = axes.at(shape.corner_reach, 2 * shape.reach);
+    const SourceTexel extent = axes.at(shape.corner_reach, 2 * axes.reach);
     LaidPatch patch{{start.x, start.y, extent.x, extent.y},
                     corner_origin(axes, end == End::first ? first : second, end),
                     {}};
@@ -24,14 +24,13 @@ SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, co
       for (int x = 0; x < extent.x; ++x) {
         const int along = axes.direction == Direction::horizontal ? x : y;
         const int from_end = end == End::first ? along : shape.corner_reach - 1 - along;
-        patch.constraints.push_back(from_end < shape.guard ? CutConstraint::take : CutConstraint::free);
+        patch.constraints.push_back(from_end < std::max(1, shape.guard) ? CutConstraint::take
+                                                                        : CutConstraint::free);
       }
     lay_patch(image, canvas, patch);
   }
   return canvas;
 }
-
-} // namespace
 
 Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& sources) {
   Frame frame;

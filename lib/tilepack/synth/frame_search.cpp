@@ -5,6 +5,7 @@
 #include "tilepack/synth/frame_refine.h"
 #include "tilepack/synth/strip_axes.h"
 #include "tilepack/synth/strip_candidates.h"
+#include "tilepack/synth/strip_join.h"
 
 #include <tbb/parallel_for.h>
 
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace tilepack {
@@ -160,27 +162,88 @@ struct StripChoices {
   std::size_t chosen = 0;
 };
 
-// The places to choose from of every strip between these corner patches.
-std::vector<StripChoices> listed_choices(const FrameProblem& problem, const PatchSearch& search,
-                                         const CornerPatches& corners) {
+// The corner patches at the two ends of a strip.
+std::pair<SourceTexel, SourceTexel> patches_at(const FrameProblem& problem, const CornerPatches& corners,
+                                               std::size_t strip) {
+  const FrameShape::Strip& ends = problem.ends(strip);
+  return {corners.places[static_cast<std::size_t>(ends.first)],
+          corners.places[static_cast<std::size_t>(ends.second)]};
+}
+
+// A start: random corner patches, and the places to choose from of every strip between them. What insides would
+// cost with each of these is not known yet.
+struct FrameStart {
+  CornerPatches corners;
+  std::vector<StripChoices> strips;
+};
+
+FrameStart frame_start(const FrameProblem& problem, std::uint64_t start) {
   const FrameShape& shape = problem.shape();
   const FeatureImage& image = problem.space.small_image();
   const int scale = problem.space.scale();
+  const CornerPatches corners = placed_corners(problem.space, problem.options, start);
   std::vector<StripChoices> strips(problem.strips());
   tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
     const StripAxes axes = problem.axes(i);
-    const SourceTexel first = corners.places[static_cast<std::size_t>(problem.ends(i).first)];
-    const SourceTexel second = corners.places[static_cast<std::size_t>(problem.ends(i).second)];
-    PositionMap map = search.mismatches(end_overlap(image, shape, axes, first, second));
+    const auto [first, second] = patches_at(problem, corners, i);
+    PositionMap map = problem.space.search.mismatches(end_overlap(image, shape, axes, first, second));
     rule_out_of_step(map, corners.alignment.seen_from(strip_place(axes, scale)), scale);
-    StripChoices& strip = strips[i];
-    strip.candidates = problem.ranking.best(map, axes, shape.corner_reach);
+    strips[i].candidates = problem.ranking.best(map, axes, shape.corner_reach);
+  });
+  return {corners, std::move(strips)};
+}
+
+// What the ends of all strips cost where each takes that of its best places which can be cut to them best. By far
+// cheaper than a search of the frame, and it tells how well the frame can be joined.
+double end_cost(const FrameProblem& problem, const FrameStart& start) {
+  const FeatureImage& image = problem.space.small_image();
+  const auto most = static_cast<std::size_t>(problem.options.screened_candidates);
+  std::vector<std::int64_t> least(problem.strips(), std::numeric_limits<std::int64_t>::max());
+  tbb::parallel_for(std::size_t{0}, least.size(), [&](std::size_t i) {
+    const auto& candidates = start.strips[i].candidates;
+    const auto [first, second] = patches_at(problem, start.corners, i);
+    for (std::size_t c = 0; c < std::min(most, candidates.size()); ++c)
+      least[i] = std::min(least[i], seam_energy(image, joined_strip(image, problem.shape(), problem.axes(i),
+                                                                    candidates[c].place, first, second)));
+  });
+  double total = 0.0;
+  for (const std::int64_t cost : least) total += static_cast<double>(cost);
+  return total;
+}
+
+// The starts from which the frame is searched, those whose ends can be joined best.
+std::vector<FrameStart> screened_starts(const FrameProblem& problem) {
+  const FrameSearchOptions& options = problem.options;
+  std::vector<FrameStart> starts(static_cast<std::size_t>(std::max(options.screened, options.starts)));
+  std::vector<double> costs(starts.size());
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t start) {
+    starts[start] = frame_start(problem, start);
+    if (options.screened > options.starts) costs[start] = end_cost(problem, starts[start]);
+  });
+  std::vector<std::size_t> order(starts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return costs[a] < costs[b]; });
+  order.resize(static_cast<std::size_t>(options.starts));
+  std::vector<FrameStart> best;
+  for (const std::size_t i : order) best.push_back(std::move(starts[i]));
+  return best;
+}
+
+// What insides cost with each place of each strip.
+void compare_insides(const FrameProblem& problem, FrameStart& start) {
+  const FrameShape& shape = problem.shape();
+  const FeatureImage& image = problem.space.small_image();
+  tbb::parallel_for(std::size_t{0}, start.strips.size(), [&](std::size_t i) {
+    const StripAxes axes = problem.axes(i);
+    const SourceTexel first = patches_at(problem, start.corners, i).first;
+    const SourceTexel second = patches_at(problem, start.corners, i).second;
+    StripChoices& strip = start.strips[i];
     strip.maps.resize(strip.candidates.size());
     tbb::parallel_for(std::size_t{0}, strip.maps.size(), [&](std::size_t c) {
       strip.maps[c] = problem.match_costs.of({image, shape, axes, strip.candidates[c].place, first, second});
     });
   });
-  return strips;
 }
 
 // For each position of an inside 0 where it would be in step, else infinity.
@@ -195,12 +258,11 @@ MatchCostMap costs_of_alignment(const PeriodAlignment& alignment, const Position
   return costs;
 }
 
-// One start, and the choice of one place for each strip.
+// One start whose insides are compared, and the choice of one place for each strip.
 class FrameChoice {
 public:
-  FrameChoice(const FrameProblem& frame_problem, CornerPatches corner_patches,
-              std::vector<StripChoices> strip_choices, MatchCostMap costs_by_alignment)
-      : problem(frame_problem), corners(std::move(corner_patches)), strips(std::move(strip_choices)),
+  FrameChoice(const FrameProblem& frame_problem, FrameStart start, MatchCostMap costs_by_alignment)
+      : problem(frame_problem), corners(std::move(start.corners)), strips(std::move(start.strips)),
         alignment_costs(std::move(costs_by_alignment)) {}
 
   // Returns what the frame costs in the end.
@@ -314,12 +376,11 @@ struct FoundFrame {
   FrameSources sources; // at the scale of the search
 };
 
-FoundFrame found_from(const FrameProblem& problem, std::uint64_t start) {
-  const SearchSpace& space = problem.space;
-  CornerPatches corners = placed_corners(space, problem.options, start);
-  auto strips = listed_choices(problem, space.search, corners);
-  MatchCostMap costs = costs_of_alignment(corners.alignment, problem.match_costs.positions(), space.scale());
-  FrameChoice choice(problem, std::move(corners), std::move(strips), std::move(costs));
+FoundFrame found_from(const FrameProblem& problem, FrameStart start) {
+  compare_insides(problem, start);
+  MatchCostMap costs =
+      costs_of_alignment(start.corners.alignment, problem.match_costs.positions(), problem.space.scale());
+  FrameChoice choice(problem, std::move(start), std::move(costs));
   const double cost = choice.improve();
   return {cost, choice.sources()};
 }
@@ -330,9 +391,10 @@ FrameSources searched_frame(const SearchSpace& space, const FrameSearchOptions& 
                             const FrameRefineOptions& refine, const Progress& progress) {
   report(progress, "frame search", 0.0);
   const FrameProblem problem = problem_of(space, options);
-  std::vector<FoundFrame> found(static_cast<std::size_t>(options.starts));
+  std::vector<FrameStart> starts = screened_starts(problem);
+  std::vector<FoundFrame> found(starts.size());
   tbb::parallel_for(std::size_t{0}, found.size(),
-                    [&](std::size_t start) { found[start] = found_from(problem, start); });
+                    [&](std::size_t i) { found[i] = found_from(problem, std::move(starts[i])); });
   FrameSources best =
       std::min_element(found.begin(), found.end(), [](const FoundFrame& a, const FoundFrame& b) {
         return a.cost < b.cost;

@@ -8,9 +8,10 @@ namespace tilepack {
 
 /// Chooses the whole frame together.
 ///
-/// The choice is made in the last level of the space's pyramid and brought to the first. For each start the
-/// strips' best places by their fit to the corner patches are listed; then one strip after another takes the
-/// place that makes the sum over all tiles least of
+/// The choice is made in the last level of the space's pyramid and brought to the first. For each random choice
+/// of corner patches the strips' best places by their fit to these are listed, and the choices whose strips can
+/// be cut to the patches best are pursued; then one strip after another takes the place that makes the sum over
+/// all tiles least of
 ///   the mismatch of its ends, and
 ///   the mismatch of the best inside that a tile with these four strips could get.
 /// The second is a sum of four maps, one a side, over positions of the inside, so that trying another place

@@ -1,5 +1,7 @@
 #include "tilepack/synth/framed_set.h"
 
+#include "tilepack/exemplar/object_scale.h"
+#include "tilepack/exemplar/structure.h"
 #include "tilepack/match/use_counts.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/seam/patch_match.h"
@@ -19,20 +21,11 @@
 namespace tilepack {
 namespace {
 
-// Halved again and again while its tiles stay at least smallest_search_tile texels wide, and further if it is too
-// large to be searched.
+// Halved again and again while its tiles stay at least smallest_search_tile texels wide.
 FeaturePyramid searched_pyramid(const FeatureImage& image, Size tile, const FramedSetSettings& settings) {
   FeaturePyramid levels(image);
-  int side = std::min(tile.width, tile.height);
-  const auto too_large = [&] {
-    return static_cast<std::int64_t>(levels.back().width) * levels.back().height >
-           settings.most_searched_texels;
-  };
-  while (side / 2 >= settings.smallest_search_tile ||
-         (too_large() && side / 2 >= settings.smallest_tile_of_large_sample)) {
+  for (int side = std::min(tile.width, tile.height); side / 2 >= settings.smallest_search_tile; side /= 2)
     levels.add_half();
-    side /= 2;
-  }
   return levels;
 }
 
@@ -186,9 +179,13 @@ SourceMap source_map(const SynthOptions& options, std::vector<SourceCanvas> tile
 } // namespace
 
 SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
-                     const FramedSetSettings& settings, const Progress& progress) {
+                     const FramedSetSettings& wanted_settings, const Progress& progress) {
+  const FramedSetSettings settings =
+      fitted(wanted_settings, object_scale(sample.features), variance_of(sample.features), options.tile_size);
   const FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
-  const SearchSpace space(sample, shape, searched_pyramid(sample.features, shape.tile, settings));
+  const FeatureImage image = with_structure(sample.features, settings.structure);
+  const SearchSpace space(sample, shape, searched_pyramid(image, shape.tile, settings),
+                          settings.most_searched_texels);
   const MatchLevels levels(space.pyramid, settings);
   const FrameSources sources = searched_frame(space, settings.frame, settings.refine, progress);
   Frame frame = joined_frame(space.image(), shape, sources);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/exemplar/structure.h"
+#include "tilepack/image/image.h"
 #include "tilepack/seam/patch_match.h"
 #include "tilepack/seam/seam_repair.h"
 
@@ -16,6 +18,19 @@ namespace tilepack {
 /// bound work or memory, and were chosen by timing bakes in the same way. Rows without a mark follow from what
 /// stands beside them. So none of these numbers is sacred; what is asked of another one is a better figure.
 ///
+/// Rows marked (j) weigh how visible joins are against how varied a set is. They were set together, by two figures
+/// of six photos and a drawn sample of pebbles: texels in joins that stay visible, and how many freely placed
+/// windows a set is as varied as. Before (strips of a fixed reach 1/8, insides by likeness, two levels of
+/// PatchMatch) and with the values here, one seed, effort 5:
+///
+///                     pebbles  stone wall  drawn pebbles  cracked mud  leaves  gravel  grass
+///     joins, before      86        67           84            37         57      48      58
+///     joins, now         34        36           50            36         39      28      36
+///     varied, before     8.5       8.4          8.5           8.9        8.3     9.0     9.5
+///     varied, now        6.7       6.6          6.8           6.5        7.2     8.6     7.9
+///
+/// Each one's own share, where it was measured, stands beside it.
+///
 /// What shows whether a change is one for the better:
 ///
 ///     ninja -C build/release quality_figures && build/release/tests/quality_figures    (see tests/quality)
@@ -26,9 +41,13 @@ namespace tilepack {
 /// How the frame is searched (searched_frame), and how thoroughly.
 struct FrameSearchOptions {
   std::uint64_t seed = 0;
-  int starts = 8;      ///< random choices of corner patches; by effort
-  int candidates = 12; ///< places considered for each strip; by effort
-  int rounds = 3;      ///< passes over all strips; (w)
+  /// Random choices of corner patches, judged by how well strips can be cut to them (end_cost), which takes far
+  /// less time than a search; by effort. (j)
+  int screened = 8;
+  int starts = 8;              ///< the best of these, from which the whole frame is searched; by effort
+  int candidates = 12;         ///< places considered for each strip; by effort
+  int screened_candidates = 6; ///< of these, the first so many are cut while starts are screened (w)
+  int rounds = 3;              ///< passes over all strips; (w)
   /// Mismatch for each texel of length of a strip whose mean color is off the sample's by 1 (of 255). (q)
   double mean_color_weight = 2;
   /// At w, a strip whose step across its edge is off the usual by the share e fits 1 + w · e² times as badly. (q)
@@ -77,10 +96,15 @@ struct InteriorOptions {
   int starts = 16;
   int rounds = 6; ///< passes over all tiles (w)
   /// Paid in the closed cut for each texel that stays the strip's: of two cuts of like cost the one that shows
-  /// more of the inside is taken. 10 is a difference of 3 in one channel. (q)
+  /// more of the inside is taken. 10 is a difference of 3 in one channel; the least, see
+  /// FramedSetSettings::bias_of_variance. (q)
   std::int64_t bias = 10;
+  /// Places between which a tile chooses, evenly spread, judged by the cut that would join them (InsideCuts); by
+  /// effort. 64 by cuts show 4 to 6 points of a hundred more of the sample than 2500 by likeness, at equal
+  /// joins (j). 0: choices_per_tile places, by their likeness to the strips.
+  int cuts = 64;
 
-  std::size_t choices_per_tile = 2'500;   ///< places between which a tile chooses, at most (w)
+  std::size_t choices_per_tile = 2'500;   ///< places between which a tile chooses without cuts, at most (w)
   std::size_t choices_in_all = 1'000'000; ///< of all tiles together; each takes 16 bytes (w)
   std::size_t fewest_choices = 64;        ///< a tile has so many whatever the size of the set
   std::size_t tiles_in_all_starts = 256; ///< starts · tiles stays below, but for one start: the larger a set,
@@ -88,32 +112,55 @@ struct InteriorOptions {
   int use_squares = 16; ///< uses are counted in squares of which so many make the tile's smaller side (w)
 };
 
+/// Cuts are drawn outward by InteriorOptions::bias but for the nearest part of the reach to a border, one in so
+/// many: with the bias there too, cuts hug the border as straight hairlines (seen on pebbles). (j)
+constexpr int unbiased_part = 3;
+
 /// All that decides how a framed set is made, apart from what the user asked for.
 struct FramedSetSettings {
-  double reach = 0.125; ///< half the width of a strip, of the tile's smaller side: 16 of 128 texels leave
-                        ///< the cut room, and three quarters of the side to the inside (q)
-  double corner_reach =
-      0.1875; ///< how far corner patches reach along the edges, likewise: half as far again as
-              ///< strips, so that cuts between the two do not meet those to the inside (q)
+  StructureOptions structure; ///< of the channel that tells outlines from the middles of things (j)
+
+  /// Half the width of a strip, of the tile's smaller side, at least: 16 of 128 texels leave the cut room, and
+  /// three quarters of the side to the inside. (q)
+  double reach = 0.125;
+  /// And at most. 0.3 instead shows 0.3 windows more, at 3 joins more. (j)
+  double longest_reach = 0.375;
+  /// Between the two the reach is so many times object_scale(): what is seen as one object is about 4 scales
+  /// wide, and a cut has to find a way round it; a fourth more is room to choose. Scales are 3.6 (cracked
+  /// asphalt), 3.8 (gravel) … 4.9 (bark), 6.9 (leaves), 9.9 (cracked mud), 10.6 (stone wall), 14.5 (pebbles), 21.5
+  /// (bathroom tiles). (j)
+  double reach_of_scale = 5.0;
+  /// How far corner patches reach along the edges, likewise, at least: half as far again as the shortest strips,
+  /// so that cuts between the two do not meet those to the inside. (q)
+  double corner_reach = 0.1875;
+  double corner_reach_of_reach = 1.07; ///< and at least so many times the reach: 3/8 becomes 0.4 (j)
+  /// InteriorOptions::bias as a share of the sample's variance (variance_of). 0.1 shows more of the sample, at the
+  /// price of hairlines: 65 joins on drawn pebbles instead of 50. (j)
+  double bias_of_variance = 0.06;
   int smallest_search_tile =
       32; ///< the search is done at the scale at which the tile's smaller side is at least
           ///< this (q)
-  std::int64_t most_searched_texels =
-      150'000;                           ///< of the sample at that scale; above, a search would take more
-                                         ///< memory than the sample itself (w)
-  int smallest_tile_of_large_sample = 4; ///< smallest_search_tile where that limit is passed
-  int margin = 8;                        ///< texels kept beside a tile while it is repaired, at most the
-                                         ///< reach: half a square of PatchMatch at half size, rounded up
+  /// Of the sample at that scale; of larger ones parts are searched (PatchSearch), so that time and memory do not
+  /// grow with the sample. (w)
+  std::int64_t most_searched_texels = 150'000;
+  int margin = 8; ///< texels kept beside a tile while it is repaired, at most the
+                  ///< reach: half a square of PatchMatch at half size, rounded up
   FrameSearchOptions frame;
   FrameRefineOptions refine;
   InteriorOptions interiors;
-  SeamRepairOptions repair;       ///< of each strip, and then of each tile
-  PatchMatchOptions coarse_match; ///< at half size, before fine_match
+  SeamRepairOptions repair; ///< of each strip, and then of each tile
+  PatchMatchOptions
+      coarse_match; ///< at half size, before fine_match; off, it would melt what cuts leave sharp
   PatchMatchOptions fine_match;
 };
 
 /// The settings of an effort of 0..9: more of it means more starts, more places tried, more patches replaced and
 /// more passes of PatchMatch.
 FramedSetSettings settings_for(int effort, std::uint64_t seed);
+
+/// The settings for a sample of this object_scale() and variance_of(), and this tile size: strips reach so far that
+/// a cut can go round what the sample shows, and cuts are drawn outward so strongly that insides show as much as
+/// they can.
+FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile);
 
 } // namespace tilepack

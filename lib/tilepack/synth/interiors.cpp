@@ -3,6 +3,7 @@
 #include "tilepack/match/use_counts.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/seam/graph_cut.h"
+#include "tilepack/synth/inside_cuts.h"
 #include "tilepack/synth/strip_axes.h"
 #include "tilepack/synth/tile_levels.h"
 
@@ -28,11 +29,10 @@ bool fits_better(const Choice& a, const Choice& b) {
 
 // The best position of each square block of positions, blocks as small as the limit allows.
 std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
+  const auto ruled = std::count(map.values.begin(), map.values.end(), ruled_out);
+  const std::size_t open = map.values.size() - static_cast<std::size_t>(ruled);
   int block = 1;
-  while (static_cast<std::size_t>((map.width + block - 1) / block) *
-             static_cast<std::size_t>((map.height + block - 1) / block) >
-         limit)
-    ++block;
+  while (open > limit * static_cast<std::size_t>(block) * static_cast<std::size_t>(block)) ++block;
   std::vector<Choice> choices;
   for (int y = 0; y < map.height; y += block)
     for (int x = 0; x < map.width; x += block) {
@@ -165,17 +165,24 @@ InteriorChoice choose_all(InteriorTask task, std::size_t start) {
   return result;
 }
 
-// The places between which each tile chooses, best first.
+// The places between which each tile chooses, best first. `framed`: see framed_tiles.
 std::vector<std::vector<Choice>> listed_choices(const SearchSpace& space, const PeriodAlignment& alignment,
+                                                const std::vector<SourceCanvas>& framed,
                                                 const std::vector<TileLevels>& tiles,
                                                 const InteriorOptions& options) {
-  const std::size_t limit = std::min(options.choices_per_tile,
-                                     std::max(options.fewest_choices, options.choices_in_all / tiles.size()));
+  const std::size_t limit =
+      options.cuts > 0 ? static_cast<std::size_t>(options.cuts)
+                       : std::min(options.choices_per_tile,
+                                  std::max(options.fewest_choices, options.choices_in_all / tiles.size()));
   std::vector<std::vector<Choice>> choices(tiles.size());
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
     PositionMap map = space.search.mismatches(tiles[id].overlap(space.pyramid.size() - 1));
     rule_out_of_step(map, alignment, space.scale());
     choices[id] = block_minima(map, limit);
+    if (options.cuts > 0) {
+      const InsideCuts cuts(space, framed[id], options.bias);
+      for (Choice& choice : choices[id]) choice.mismatch = cuts.cost(choice.place);
+    }
     std::sort(choices[id].begin(), choices[id].end(), fits_better);
   });
   return choices;
@@ -265,7 +272,7 @@ InteriorChoice chosen_interiors(const SearchSpace& space, const FrameSources& so
                                 const Progress& progress) {
   report(progress, "interiors", 0.0);
   const std::vector<TileLevels> levels = tile_levels(space, framed);
-  const auto choices = listed_choices(space, sources.alignment, levels, options);
+  const auto choices = listed_choices(space, sources.alignment, framed, levels, options);
   report(progress, "interiors", 0.5);
   InteriorChoice best = best_of_starts(interior_task(space, sources, choices, options));
   refine(space, levels, best.places);
@@ -284,6 +291,7 @@ void join_interiors(const FeatureImage& image, const FrameShape& shape,
       for (int x = 0; x < canvas.width; ++x)
         patch.constraints.push_back(canvas.at(x, y) == no_source ? CutConstraint::take
                                     : in_guard(shape, x, y)      ? CutConstraint::keep
+                                    : near_border(shape, x, y)   ? CutConstraint::unbiased
                                                                  : CutConstraint::free);
     lay_patch(image, canvas, patch, bias);
   });

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "tilepack/exemplar/feature_image.h"
+
+#include <cstdint>
+
+namespace tilepack {
+
+/// How far from an outline the channel of structure tells distances apart, texels.
+constexpr int structure_range = 12;
+
+struct StructureOptions {
+  double weight = 1.0; ///< 0..1, of the channel beside those of color; at 0 the image is returned as it is
+  /// FeatureImage::flat_seam as a share of the variance of all channels together. Half of it keeps cuts out of
+  /// stones; at none, two grey stones grow together for nothing.
+  double flat_seam_share = 0.5;
+};
+
+/// The image with one more channel, last: the distance of each texel to the nearest strong edge, 0 on it and
+/// `weight` · 255 from structure_range texels on. With it comparisons see outlines, and not colors alone: the
+/// middle of one stone does not pass for the rim of another, and a cut between two stones runs where both
+/// have their gaps [LH06].
+///
+/// Strong are the edges of the tenth of all texels at which the smoothed color changes most. Where that is a
+/// matter of grains, no texel is far from an edge, and the channel says next to nothing, as it should.
+///
+/// An image with max_feature_channels channels is returned as it is.
+///
+/// FeatureImage::flat_seam is set: a cut through the middle of two things of one color is not seen as a step of
+/// color, but as a thing of no shape. Cuts that pay for it run along outlines.
+FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options = {});
+
+/// The variance of all channels together, rounded.
+std::int64_t variance_of(const FeatureImage& image);
+
+} // namespace tilepack

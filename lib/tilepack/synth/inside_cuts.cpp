@@ -1,0 +1,41 @@
+#include "tilepack/synth/inside_cuts.h"
+
+#include <algorithm>
+
+namespace tilepack {
+
+InsideCuts::InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std::int64_t full_bias)
+    : image(space.small_image()), frame(framed.width / space.scale(), framed.height / space.scale()),
+      // a texel stands for scale² of them, a pair of neighbours for `scale` pairs
+      bias(full_bias * space.scale()) {
+  const FrameShape& shape = space.shape;
+  const int scale = space.scale();
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const int full_x = x * scale + scale / 2, full_y = y * scale + scale / 2;
+      const SourceTexel s = framed.at(full_x, full_y);
+      if (s == no_source) {
+        constraints.push_back(CutConstraint::take);
+        frame.at(x, y) = {0, 0};
+        continue;
+      }
+      const bool rim =
+          std::min({x, y, frame.width - 1 - x, frame.height - 1 - y}) < std::max(1, shape.guard / scale);
+      constraints.push_back(rim                                  ? CutConstraint::keep
+                            : near_border(shape, full_x, full_y) ? CutConstraint::unbiased
+                                                                 : CutConstraint::free);
+      frame.at(x, y) = {std::clamp(s.x / scale, 0, image.width - 1),
+                        std::clamp(s.y / scale, 0, image.height - 1)};
+    }
+}
+
+std::int64_t InsideCuts::cost(SourceTexel place) const {
+  SourceCanvas canvas = frame;
+  lay_patch(image, canvas, {{0, 0, canvas.width, canvas.height}, place, constraints}, bias);
+  std::int64_t kept = 0;
+  for (int y = 0; y < canvas.height; ++y)
+    for (int x = 0; x < canvas.width; ++x) kept += canvas.at(x, y) != SourceTexel{place.x + x, place.y + y};
+  return seam_energy(image, canvas) + bias * kept;
+}
+
+} // namespace tilepack

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "tilepack/seam/graph_cut.h"
+#include "tilepack/seam/source_canvas.h"
+#include "tilepack/synth/search_space.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tilepack {
+
+/// What joining an inside to a framed tile really costs: it is laid in along its best cut, and the seams that
+/// are left are counted. A likeness over the whole overlap can't tell that: most of the overlap is never
+/// shown, and what matters is whether some closed line through it fits.
+class InsideCuts {
+public:
+  /// `framed` is a tile of framed_tiles() and `bias` that of lay_patch(), both at full size. `space` must outlive
+  /// it.
+  InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std::int64_t bias);
+
+  /// The energy of the seams of the tile, and the bias of all that it keeps, with the inside at `place` (of
+  /// the tile's north-west texel, at the scale of the search).
+  std::int64_t cost(SourceTexel place) const;
+
+private:
+  const FeatureImage& image;
+  SourceCanvas frame;
+  std::vector<CutConstraint> constraints;
+  std::int64_t bias;
+};
+
+} // namespace tilepack

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "tilepack/seam/source_canvas.h"
+#include "tilepack/synth/strip_axes.h"
+
+namespace tilepack {
+
+/// The canvas of a strip whose window lies at `place`, the corner patches at its two ends (as in FrameSources) cut
+/// into it. Within `guard` of the ends, and at them at least, only they are shown.
+SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
+                          SourceTexel place, SourceTexel first, SourceTexel second);
+
+} // namespace tilepack
