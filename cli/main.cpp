@@ -7,6 +7,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -103,5 +105,12 @@ int guarded_run(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   const int code = tilepack::cli::guarded_run({argv + 1, argv + argc});
   if (code < 0) tilepack::cli::end_by_signal();
-  return code;
+#ifdef TILEPACK_SANITIZED
+  return code; // leaks are looked for on the way out
+#else
+  // Nothing is left to do, and some libraries wait for ever for threads that too little memory kept from
+  // starting when they are shut down.
+  std::fflush(nullptr);
+  std::quick_exit(code);
+#endif
 }

@@ -101,6 +101,8 @@ LoadedFile load(const fs::path& folder, const AnnouncedFile& announced) {
     if (!loaded.issues.empty()) return loaded;
     loaded.image = read_image(path, pack_reading(Encoding::linear)).image;
   } catch (const Error& error) {
+    if (error.kind() == ErrorKind::internal)
+      throw; // no fault of the pack: no memory, a library that can't start
     const bool values = header_read && error.kind() == ErrorKind::invalid_content;
     refuse(values ? Rule::not_finite : Rule::file_unreadable, error.what(),
            values ? "finite numbers" : "an image");
