@@ -57,3 +57,24 @@ TEST_CASE("halving takes the mean of two by two and drops an odd last row") {
   CHECK(half.height == 1);
   CHECK(half.values == std::vector<std::uint8_t>{3, 25});
 }
+
+TEST_CASE("a few sparks change neither the brightness of a linear map nor the range of a height map") {
+  SampleMap light{"light", Role::color, Encoding::linear, Depth::f32, blobs(60, 60)};
+  SampleMap height{"height", Role::height, Encoding::linear, Depth::f32, blobs(60, 60, 3, 1)};
+  SampleMap bright = light, high = height;
+  for (const int x : {5, 25, 45}) {
+    for (float& v : bright.image.texel(x, 30)) v = 1e6f;
+    high.image.texel(x, 30)[0] = 40.0f;
+  }
+  const auto largest_change = [](const SampleMap& a, const SampleMap& b) {
+    const FeatureImage before = feature_image(std::span(&a, 1)), after = feature_image(std::span(&b, 1));
+    int most = 0;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 60; ++x)
+        if (y != 30 || x % 20 != 5)
+          most = std::max(most, std::abs(before.texel(x, y)[0] - after.texel(x, y)[0]));
+    return most;
+  };
+  CHECK(largest_change(light, bright) <= 3);
+  CHECK(largest_change(height, high) <= 40); // of 159: a quarter of the usual range is kept for them
+}

@@ -52,3 +52,29 @@ TEST_CASE("a patch taken from the image is found where it was taken") {
   CHECK(map.at(31, 17) == 0);
   CHECK(std::count(map.values.begin(), map.values.end(), 0) == 1);
 }
+
+TEST_CASE("of a large image four parts are searched, and what is found there is what a full search finds") {
+  const FeatureImage image = test::noise_features(200, 160, 2, 9);
+  Overlap overlap(20, 12, 2);
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 20; ++x) overlap.add(x, y, image.texel(40 + x, 30 + y));
+  const PositionMap all = PatchSearch(image).mismatches(overlap);
+  const PositionMap parts = PatchSearch(image, {20, 12}, 8'000).mismatches(overlap);
+  REQUIRE((parts.width == all.width && parts.height == all.height));
+  // 8000 of 32000 texels: a half of each side, in two parts.
+  std::size_t open = 0;
+  bool equal = true;
+  for (std::size_t i = 0; i < all.values.size(); ++i) {
+    if (parts.values[i] == ruled_out) continue;
+    ++open;
+    equal = equal && parts.values[i] == all.values[i];
+  }
+  CHECK(equal);
+  CHECK(open == 4 * (50 - 20 + 1) * (40 - 12 + 1));
+  CHECK(parts.at(40, 30) == 0);
+  // Small images are searched whole, and parts hold patches of the size asked for with room to choose.
+  CHECK(PatchSearch(image, {20, 12}, 32'000).mismatches(overlap).values == all.values);
+  const PositionMap few = PatchSearch(image, {20, 12}, 1).mismatches(overlap);
+  CHECK(std::count_if(few.values.begin(), few.values.end(), [](std::int64_t v) { return v != ruled_out; }) ==
+        4 * (40 - 20 + 1) * (24 - 12 + 1));
+}

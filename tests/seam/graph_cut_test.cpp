@@ -1,6 +1,7 @@
 #include "support/images.h"
 #include "support/samples.h"
 
+#include "tilepack/exemplar/structure.h"
 #include "tilepack/seam/graph_cut.h"
 
 #include <catch2/catch.hpp>
@@ -108,4 +109,62 @@ TEST_CASE("texels that are neighbours in the sample have no seam") {
   CHECK(seam_cost(image, {3, 3}, {3, 4}, 0, 1) == 0);
   CHECK(seam_cost(image, {3, 3}, {5, 3}, 1, 0) > 0);
   CHECK(seam_cost(image, {9, 9}, {0, 0}, 1, 0) > 0); // at the sample's end the last texel stands for the next
+}
+
+TEST_CASE("a cut through two flat things of one color costs, one along their outlines does not") {
+  // Grey stones 40 texels wide, dark gaps of 4 between them.
+  FeatureImage stones{220, 60, 1, {}};
+  for (int y = 0; y < stones.height; ++y)
+    for (int x = 0; x < stones.width; ++x)
+      stones.values.push_back(static_cast<std::uint8_t>(x % 44 < 40 ? 150 : 20));
+  const SourceTexel middle{20, 30}, next_middle{44 + 21, 10};
+  const SourceTexel rim{39, 30}, next_gap{44 + 40, 10};
+  CHECK(seam_cost(stones, middle, next_middle, 1, 0) == 0);
+  const FeatureImage seen = with_structure(stones);
+  REQUIRE(seen.flat_seam > 0);
+  const std::int64_t through = seam_cost(seen, middle, next_middle, 1, 0);
+  CHECK(through == seen.flat_seam);
+  CHECK(20 * seam_cost(seen, rim, next_gap, 1, 0) < through);
+  CHECK(seam_cost(seen, middle, {21, 30}, 1, 0) == 0); // no cut at all
+}
+
+TEST_CASE("texels without bias are cut as without it, others at its price") {
+  const FeatureImage image = test::noise_features(24, 24, 3, 6);
+  constexpr std::int64_t bias = 6'000; // a tenth of a seam between two texels
+  int differing = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SourceCanvas start(5, 4);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 5; ++x) start.at(x, y) = {x + 1, y + 2};
+    LaidPatch patch = whole(start, {9, 11});
+    for (std::size_t i = 0; i < patch.constraints.size(); ++i)
+      patch.constraints[i] = i == 0                                    ? CutConstraint::take
+                             : i == 19                                 ? CutConstraint::keep
+                             : random_below(seed, "biased", i, 4) == 0 ? CutConstraint::free
+                                                                       : CutConstraint::unbiased;
+    const auto cost = [&](const SourceCanvas& canvas) {
+      std::int64_t total = seam_energy(image, canvas);
+      for (std::size_t i = 0; i < patch.constraints.size(); ++i)
+        if (patch.constraints[i] == CutConstraint::free && canvas.texels[i] == start.texels[i]) total += bias;
+      return total;
+    };
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    for (std::uint32_t bits = 0; bits < (1u << 18); ++bits) {
+      SourceCanvas canvas = start;
+      for (std::size_t i = 0; i < 19; ++i)
+        if (i == 0 || (bits >> (i - 1) & 1u) != 0)
+          canvas.texels[i] = {9 + static_cast<int>(i) % 5, 11 + static_cast<int>(i) / 5};
+      least = std::min(least, cost(canvas));
+    }
+    SourceCanvas canvas = start;
+    lay_patch(image, canvas, patch, bias);
+    CHECK(cost(canvas) == least);
+    LaidPatch all_free = patch;
+    for (CutConstraint& c : all_free.constraints)
+      if (c == CutConstraint::unbiased) c = CutConstraint::free;
+    SourceCanvas other = start;
+    lay_patch(image, other, all_free, bias);
+    differing += other.texels != canvas.texels;
+  }
+  CHECK(differing > 0);
 }

@@ -10,11 +10,12 @@
 
 namespace tilepack::testing {
 
-/// A sample of soft random blobs in three channels: the mean of noise over squares, so neighbours are alike.
-inline Image blobs(int width, int height, std::uint64_t seed = 1, int channels = 3) {
+/// A sample of soft random blobs in three channels: the mean of noise over squares that reach so far from their
+/// middle, so neighbours are alike.
+inline Image blobs(int width, int height, std::uint64_t seed = 1, int channels = 3, int reach = 3) {
   const Image noise = test::noise(width, height, channels, seed, Depth::u8, "blobs");
   Image image(width, height, channels);
-  constexpr int reach = 3;
+  const auto side = static_cast<float>(2 * reach + 1);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int c = 0; c < channels; ++c) {
@@ -23,10 +24,10 @@ inline Image blobs(int width, int height, std::uint64_t seed = 1, int channels =
           for (int dx = -reach; dx <= reach; ++dx)
             sum += noise.texel((x + dx + width) % width,
                                (y + dy + height) % height)[static_cast<std::size_t>(c)];
-        image.texel(x, y)[static_cast<std::size_t>(c)] = sum / 49.0f;
+        image.texel(x, y)[static_cast<std::size_t>(c)] = sum / (side * side);
       }
   // Spread to the whole range, so that differences are large.
-  for (float& v : image.data()) v = std::min(1.0f, std::max(0.0f, (v - 0.5f) * 5.0f + 0.5f));
+  for (float& v : image.data()) v = std::min(1.0f, std::max(0.0f, (v - 0.5f) * (5.0f * side / 7.0f) + 0.5f));
   return image;
 }
 

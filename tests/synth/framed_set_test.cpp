@@ -2,6 +2,7 @@
 
 #include "tilepack/image/image.h"
 #include "tilepack/synth/framed_set.h"
+#include "tilepack/synth/set_report.h"
 #include "tilepack/synth/synthesize.h"
 
 #include <tbb/global_control.h>
@@ -187,4 +188,18 @@ TEST_CASE(
     CHECK(pairs > 0);
     CHECK(apart * 20 < pairs);
   }
+}
+
+TEST_CASE("a set made of a large sample is varied") {
+  // Large blobs cost little to draw: each texel of a small picture, four times along each axis.
+  const Image small = blobs(400, 400, 8, 1);
+  Image large(1600, 1600, 1);
+  for (int y = 0; y < 1600; ++y)
+    for (int x = 0; x < 1600; ++x) large.texel(x, y)[0] = small.texel(x / 4, y / 4)[0];
+  const SampleAnalysis sample = analysed(testing::features(large), {});
+  const SourceMap set =
+      framed_set(sample, testing::two_colors({64, 64}, Coloring::corner, 2), settings_for(2, 0));
+  const double varied = set_report(sample, set).figures.distinct_tiles;
+  INFO("as varied as " << varied << " tiles");
+  CHECK(varied > 6.0);
 }

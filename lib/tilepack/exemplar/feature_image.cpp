@@ -75,6 +75,8 @@ double quantile(const Image& image, int channels, double share) {
 // A few texels that are much brighter than all others (sparks, suns, faults of a camera) say nothing of the
 // brightness of a sample: values count up to `clipped`.
 constexpr double usual_share = 0.99;
+constexpr double most_of_usual = 4.0; // of the largest usual brightness
+constexpr double spare_range = 0.25;  // of the usual range of heights, to either side
 
 double mean_of_positive(const Image& image, int channels, double clipped) {
   double sum = 0.0;
@@ -93,7 +95,7 @@ std::pair<double, double> usual_range(const Image& image) {
   const auto [low, high] = std::minmax_element(image.data().begin(), image.data().end());
   const double from = quantile(image, image.channels(), 1.0 - usual_share);
   const double to = quantile(image, image.channels(), usual_share);
-  const double spare = (to - from) / 4.0;
+  const double spare = (to - from) * spare_range;
   if (!(spare > 0.0)) return {static_cast<double>(*low), static_cast<double>(*high)};
   return {std::max(static_cast<double>(*low), from - spare),
           std::min(static_cast<double>(*high), to + spare)};
@@ -108,7 +110,7 @@ void add_sources(const SampleMap& map, std::vector<Source>& sources) {
   curve.scale = 255.0 * weight;
   if (map.role == Role::color && map.encoding == Encoding::linear) {
     curve.compressed = true;
-    const double clipped = std::max(4.0 * quantile(image, plain_channels, usual_share), 0.0);
+    const double clipped = std::max(most_of_usual * quantile(image, plain_channels, usual_share), 0.0);
     curve.mean = std::max(mean_of_positive(image, plain_channels, clipped), 1e-30);
   } else if (map.role == Role::height) {
     const auto [low, high] = usual_range(image);

@@ -181,7 +181,8 @@ SourceMap source_map(const SynthOptions& options, std::vector<SourceCanvas> tile
 SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
                      const FramedSetSettings& wanted_settings, const Progress& progress) {
   const FramedSetSettings settings =
-      fitted(wanted_settings, object_scale(sample.features), variance_of(sample.features), options.tile_size);
+      fitted(wanted_settings, object_scale(sample.features), variance_of(sample.features), options.tile_size,
+             !PeriodAlignment(sample.periods, options.tile_size).free());
   const FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
   const FeatureImage image = with_structure(sample.features, settings.structure);
   const SearchSpace space(sample, shape, searched_pyramid(image, shape.tile, settings),

@@ -64,10 +64,12 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   return settings;
 }
 
-FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile) {
+FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile,
+                         bool in_step) {
   const double side = std::min(tile.width, tile.height);
   const double wanted = settings.reach_of_scale * object_scale / side;
-  settings.reach = std::clamp(wanted, settings.reach, settings.longest_reach);
+  settings.reach =
+      std::clamp(wanted, settings.reach, in_step ? settings.longest_reach_in_step : settings.longest_reach);
   settings.corner_reach = std::max(settings.corner_reach, settings.reach * settings.corner_reach_of_reach);
   settings.interiors.bias = std::max<std::int64_t>(
       settings.interiors.bias,

@@ -125,6 +125,9 @@ struct FramedSetSettings {
   double reach = 0.125;
   /// And at most. 0.3 instead shows 0.3 windows more, at 3 joins more. (j)
   double longest_reach = 0.375;
+  /// The same where tiles hold whole periods of the sample (PeriodAlignment): parts in step join well anyway, and
+  /// wide strips show less of the sample. (q; bricks of tests/quality)
+  double longest_reach_in_step = 0.2;
   /// Between the two the reach is so many times object_scale(): what is seen as one object is about 4 scales
   /// wide, and a cut has to find a way round it; a fourth more is room to choose. Scales are 3.6 (cracked
   /// asphalt), 3.8 (gravel) … 4.9 (bark), 6.9 (leaves), 9.9 (cracked mud), 10.6 (stone wall), 14.5 (pebbles), 21.5
@@ -160,7 +163,8 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed);
 
 /// The settings for a sample of this object_scale() and variance_of(), and this tile size: strips reach so far that
 /// a cut can go round what the sample shows, and cuts are drawn outward so strongly that insides show as much as
-/// they can.
-FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile);
+/// they can. `in_step`: tiles hold whole periods of the sample.
+FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile,
+                         bool in_step);
 
 } // namespace tilepack

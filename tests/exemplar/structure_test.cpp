@@ -1,0 +1,72 @@
+#include "support/samples.h"
+
+#include "tilepack/exemplar/structure.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace tilepack;
+
+namespace {
+
+constexpr int edge = 60; // the first bright column
+
+FeatureImage with_edge(int bright) {
+  FeatureImage image{160, 40, 1, {}};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      image.values.push_back(static_cast<std::uint8_t>(x < edge ? 40 : bright));
+  return image;
+}
+
+} // namespace
+
+TEST_CASE("the channel of structure is nothing at an edge and full structure_range texels away from it") {
+  for (const int bright : {60, 220}) { // what counts is not how strong an edge is
+    const FeatureImage image = with_structure(with_edge(bright));
+    REQUIRE(image.channels == 2);
+    CHECK(image.guides == 1);
+    for (const int y : {0, 17, 39}) {
+      const auto at = [&](int x) { return static_cast<int>(image.texel(x, y)[1]); };
+      CHECK(image.texel(3, y)[0] == 40);
+      CHECK(at(edge - 1) == 0);
+      CHECK(at(edge) == 0);
+      int zeros = 0;
+      for (int x = 0; x < image.width; ++x) {
+        zeros += at(x) == 0;
+        if (x < edge - 1 - structure_range - 3 || x > edge + structure_range + 3) CHECK(at(x) == 255);
+        if (x > edge) CHECK((at(x) >= at(x - 1) && at(x) - at(x - 1) <= 255 / structure_range + 1));
+      }
+      CHECK(zeros <= 160 / 10); // only the steepest tenth is an edge
+      const auto first = [&](int wanted) {
+        int x = edge;
+        while (at(x) < wanted) ++x;
+        return x;
+      };
+      CHECK(first(255) - (first(1) - 1) == structure_range);
+    }
+  }
+}
+
+TEST_CASE("the weight scales the channel, and nothing of it leaves the image as it is") {
+  const FeatureImage plain = with_edge(200);
+  const FeatureImage half = with_structure(plain, {0.5, 0.5});
+  CHECK(*std::max_element(half.values.begin(), half.values.end()) == 200);
+  CHECK(half.texel(5, 5)[1] == 128);
+  const FeatureImage none = with_structure(plain, {0.0, 0.5});
+  CHECK(none.values == plain.values);
+  CHECK(none.flat_seam == 0);
+}
+
+TEST_CASE("what a flat seam costs follows the variance of the sample") {
+  const FeatureImage plain = with_edge(200);
+  CHECK(variance_of(plain) == 6000); // 3/8 and 5/8 of all texels, 160 apart
+  CHECK(with_structure(plain, {1.0, 0.5}).flat_seam == 3000);
+  CHECK(with_structure(plain, {1.0, 0.0}).flat_seam == 0);
+}
+
+TEST_CASE("an image with all channels gets none of structure") {
+  FeatureImage full{8, 8, max_feature_channels, {}};
+  full.values.resize(64 * max_feature_channels);
+  CHECK(with_structure(full).channels == max_feature_channels);
+}

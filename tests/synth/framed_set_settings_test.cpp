@@ -1,0 +1,41 @@
+#include "tilepack/synth/framed_set_settings.h"
+
+#include <catch2/catch.hpp>
+
+using namespace tilepack;
+
+TEST_CASE("strips reach as far as what a sample shows is large, within bounds") {
+  const FramedSetSettings plain = settings_for(5, 1);
+  const auto reach = [&](double scale) { return fitted(plain, scale, 1000, {128, 160}, false).reach; };
+  CHECK(reach(1.0) == plain.reach);
+  CHECK(reach(6.4) == Approx(0.25));
+  CHECK(reach(32.0) == plain.longest_reach);
+  CHECK(fitted(plain, 32.0, 1000, {128, 128}, true).reach == plain.longest_reach_in_step);
+  for (const double scale : {1.0, 4.0, 8.0, 32.0}) {
+    const FramedSetSettings settings = fitted(plain, scale, 1000, {128, 128}, false);
+    CHECK(settings.corner_reach >= plain.corner_reach);
+    CHECK(settings.corner_reach >= settings.reach);
+    CHECK(settings.corner_reach <= 0.5); // of the tile
+  }
+}
+
+TEST_CASE("cuts are drawn outward the more, the more a sample varies") {
+  const FramedSetSettings plain = settings_for(5, 1);
+  CHECK(fitted(plain, 5.0, 0, {128, 128}, false).interiors.bias == plain.interiors.bias);
+  CHECK(fitted(plain, 5.0, 5000, {128, 128}, false).interiors.bias == 300);
+}
+
+TEST_CASE("no effort does less than the one before it") {
+  for (int effort = 1; effort <= 9; ++effort) {
+    const FramedSetSettings less = settings_for(effort - 1, 1), more = settings_for(effort, 1);
+    CHECK(more.frame.screened >= less.frame.screened);
+    CHECK(more.frame.starts >= less.frame.starts);
+    CHECK(more.frame.starts <= more.frame.screened);
+    CHECK(more.frame.candidates >= less.frame.candidates);
+    CHECK(more.interiors.cuts >= less.interiors.cuts);
+    CHECK(more.repair.patches >= less.repair.patches);
+    CHECK(more.fine_match.passes >= less.fine_match.passes);
+    CHECK(more.fine_match.sweeps >= less.fine_match.sweeps);
+    CHECK(more.coarse_match.passes == 0);
+  }
+}
