@@ -156,6 +156,10 @@ Option Options::option(const std::string& names, int& variable, const std::strin
   return {*parser, parser->add(names, variable, help)};
 }
 
+Option Options::option(const std::string& names, std::int64_t& variable, const std::string& help) {
+  return {*parser, parser->add(names, variable, help)};
+}
+
 Option Options::option(const std::string& names, double& variable, const std::string& help) {
   return {*parser, parser->add(names, variable, help)};
 }

@@ -2,6 +2,7 @@
 
 #include "value_check.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -59,6 +60,7 @@ public:
   /// one value each time it is given; a positional takes all that are left.
   Option option(const std::string& names, std::string& variable, const std::string& help);
   Option option(const std::string& names, int& variable, const std::string& help);
+  Option option(const std::string& names, std::int64_t& variable, const std::string& help);
   Option option(const std::string& names, double& variable, const std::string& help);
   Option option(const std::string& names, std::optional<std::string>& variable, const std::string& help);
   Option option(const std::string& names, std::optional<int>& variable, const std::string& help);

@@ -27,10 +27,10 @@ Check number_where(Condition condition, const std::string& allowed) {
 
 } // namespace
 
-Check whole_number(int lowest, int highest, const std::string& note) {
+Check whole_number(std::int64_t lowest, std::int64_t highest, const std::string& note) {
   const std::string allowed = fmt::format("a whole number of {} to {}{}", lowest, highest, note);
   return [=](const std::string& text) {
-    int value = 0;
+    std::int64_t value = 0;
     const bool plain = parse(text, value) && text == fmt::format("{}", value); // CLI11 takes 010 for 8
     return plain && value >= lowest && value <= highest ? std::string() : refusal(text, allowed);
   };

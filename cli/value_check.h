@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -13,7 +14,7 @@ using Check = std::function<std::string(const std::string& text)>;
 /// where CLI11 reads 0x10 and 010 as well. `note` follows the range.
 
 /// Digits alone, after a minus where `lowest` is negative.
-Check whole_number(int lowest, int highest, const std::string& note = "");
+Check whole_number(std::int64_t lowest, std::int64_t highest, const std::string& note = "");
 
 /// Also fractions and exponents; nan and inf are in no range.
 Check number(double lowest, double highest, const std::string& note = "");

@@ -31,6 +31,8 @@ struct BakeArguments {
   std::string preset;
   bool list_presets = false;
   std::string encoding;
+  std::string channels;
+  std::int64_t max_texels = usual_most_texels;
   std::string depfile;
   std::string report;
   std::string report_format = "text";
@@ -71,6 +73,8 @@ BakeJob job_from(const BakeArguments& arguments) {
     job.settings.push_back({name, value, field(name), ErrorKind::usage});
   if (!arguments.encoding.empty())
     job.encoding = arguments.encoding == "srgb" ? Encoding::srgb : Encoding::linear;
+  job.channels = arguments.channels;
+  job.max_texels = arguments.max_texels;
   job.folder = arguments.folder;
   job.report = arguments.report;
   job.depfile = arguments.depfile;
@@ -124,6 +128,13 @@ Action declare_bake(Options& options) {
       .option("--encoding", arguments->encoding,
               "how color samples are encoded; as their file says unless given")
       .one_of("srgb|linear");
+  options
+      .option("--channels", arguments->channels,
+              "channels of a color sample by their names in the file, in this order")
+      .value("R,G,B");
+  options.option("--max-texels", arguments->max_texels, "samples of more are refused before memory is taken")
+      .check(whole_number(1, std::int64_t{1} << 40))
+      .value("N");
   options.option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
       .value("FILE");
   options

@@ -111,7 +111,7 @@ TEST_CASE("the canonical text has a line for every field, sorted, and doesn't de
   for (std::size_t start = 0; start < text.size(); start = text.find('\n', start) + 1)
     keys.push_back(text.substr(start, text.find('=', start) - start));
   CHECK(std::is_sorted(keys.begin(), keys.end()));
-  CHECK(keys.size() == bake_fields().size() + 3);
+  CHECK(keys.size() == bake_fields().size() + 4);
   for (const BakeField& field : bake_fields()) CHECK(std::count(keys.begin(), keys.end(), field.name) == 1);
   CHECK_THAT(text, Contains("\nmaps=color:color,height:height\n") && Contains("\ntile-size=16\n") &&
                        Contains("\ngutter=\n") && Contains("\njump-weight="));

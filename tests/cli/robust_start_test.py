@@ -15,7 +15,8 @@ class RobustStart(CommandCase):
     def test_little_address_space_is_said_where_openimageio_is_needed(self):
         self.run_tilepack("bake", self.sample, "-o", "floats", "--tile-size", 32, "--effort", 0, "--format", "exr")
         codes = set()
-        for mebibytes in (100, 200, 300, 400, 500, 700, 1000):
+        # With less the program's own threads may not start; here it is the module that can't.
+        for mebibytes in (300, 400, 500, 700, 1000):
             limit = mebibytes << 20
             done = subprocess.run([TILEPACK, "validate", "floats"], cwd=self.folder, capture_output=True, text=True, timeout=60,
                                   preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))

@@ -77,6 +77,9 @@ TEST_CASE("what the eye would find again is shown by few tiles") {
       }
   }
   INFO(with / 24 << " of the tiles, and " << without / 24 << " where nothing is done about it");
-  CHECK(with / 24 < 0.13); // one of 16 tiles is 0.0625, and the sample holds six
+  // One of 16 tiles is 0.0625, and the sample holds six. The spot is the largest thing in this noise, so strips
+  // reach 3/8 of a tile for its sake; of narrow ones .12 is shown.
+  CHECK(with < 0.5 * without);
+  CHECK(with / 24 < 0.16);
   CHECK(with < 0.6 * without);
 }

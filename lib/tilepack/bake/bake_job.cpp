@@ -117,7 +117,14 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   const Progress progress = clock.around(progress_of(job.name, watch.progress));
   report(progress, "reading", 0.0);
   BakedJob baked;
-  baked.samples = read_samples(maps, job.encoding);
+  ReadOptions reading;
+  reading.encoding = job.encoding;
+  reading.channels = job.channels;
+  reading.most_texels = job.max_texels;
+  ReadSamples read = read_samples(maps, reading);
+  baked.samples = std::move(read.maps);
+  if (watch.note)
+    for (const std::string& note : read.notes) watch.note(note);
   if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
       watch.note && !doubt.empty())
     watch.note(doubt);
@@ -174,6 +181,7 @@ std::string canonical_options(const BakeJob& job) {
     std::string& list = lines["maps"];
     list += fmt::format("{}{}:{}", list.empty() ? "" : ",", map.name, name_of(map.role));
   }
+  lines["channels"] = job.channels;
   lines["encoding"] = job.encoding ? std::string(name_of(*job.encoding)) : "";
   lines["version"] = TILEPACK_VERSION;
   std::string text;

@@ -33,10 +33,12 @@ struct BakeJob {
   std::string preset = {};                ///< a built-in one or a file; empty: none
   std::vector<BakeSetting> settings = {}; ///< these override the preset's
   std::optional<Encoding> encoding = {};  ///< of color samples; unset: as their files say
-  std::string folder = {};                ///< of the pack
-  std::string report = {};                ///< page about the pack, FILE.html; empty: none
-  std::string depfile = {};               ///< rule for make or ninja; empty: none
-  std::string place = {};                 ///< where the job is asked for: "manifest.json:12"; empty: unsaid
+  std::string channels = {}; ///< of color samples, by name: "R,G,B"; empty: as channel_choice.h has it
+  std::int64_t max_texels = usual_most_texels; ///< samples of more are refused before memory is taken
+  std::string folder = {};                     ///< of the pack
+  std::string report = {};                     ///< page about the pack, FILE.html; empty: none
+  std::string depfile = {};                    ///< rule for make or ninja; empty: none
+  std::string place = {}; ///< where the job is asked for: "manifest.json:12"; empty: unsaid
 };
 
 /// The preset's settings and then the job's own.
@@ -57,7 +59,7 @@ std::vector<std::string> files_written(const BakeJob& job);
 
 /// All that reaches the bytes of the pack besides the content of the maps' files, as lines "KEY=VALUE\n" in
 /// alphabetical order: every field of bake_fields() with defaults filled in (empty: left to what the sample or
-/// the set asks for), "encoding", "maps" (NAME:ROLE in order, without their files) and "version" (of
+/// the set asks for), "channels", "encoding", "maps" (NAME:ROLE in order, without their files) and "version" (of
 /// tilepack). Two jobs with the same text and the same content of maps make the same pack. Where an option was
 /// set, from which preset, and what the files are called has no say in it.
 std::string canonical_options(const BakeJob& job);

@@ -62,14 +62,23 @@ MaterialFile parsed_map(const std::string& text) {
                   role, hint, name));
 }
 
-std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::optional<Encoding> asked) {
-  std::vector<SampleMap> maps(files.size());
+ReadSamples read_samples(std::span<const MaterialFile> files, const ReadOptions& options) {
+  ReadOptions plain;
+  plain.encoding = Encoding::linear;
+  plain.alpha = AlphaReading::as_stored;
+  plain.most_texels = options.most_texels;
+  ReadSamples read;
+  read.maps.resize(files.size());
+  std::vector<std::vector<std::string>> notes(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     const MaterialFile& f = files[i];
-    ImageFile read = read_image(f.file, f.role == Role::color ? asked : std::optional(Encoding::linear));
-    maps[i] = {f.name, f.role, read.encoding, read.depth, std::move(read.image), f.file};
+    ImageFile file = read_image(f.file, f.role == Role::color ? options : plain);
+    notes[i] = std::move(file.notes);
+    read.maps[i] = {f.name, f.role, file.encoding, file.depth, std::move(file.image), f.file};
   });
-  return maps;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (const std::string& note : notes[i]) read.notes.push_back(files[i].file + ": " + note);
+  return read;
 }
 
 std::string doubt_about_color(const SampleMap& map, std::optional<Encoding> asked) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/bake/material_files.h"
+#include "tilepack/image/image_file.h"
 
 #include <optional>
 #include <span>
@@ -18,9 +19,15 @@ std::vector<MaterialFile> sample_files(const std::string& sample);
 /// field "map".
 MaterialFile parsed_map(const std::string& text);
 
-/// Reads the maps side by side. Color maps are taken to be encoded as `asked`, or as their file says; all
-/// others are plain values. Throws as read_image does.
-std::vector<SampleMap> read_samples(std::span<const MaterialFile> files, std::optional<Encoding> asked);
+/// The maps of a material as read, and what their files left in doubt: "FILE: sentence", fields marked.
+struct ReadSamples {
+  std::vector<SampleMap> maps;
+  std::vector<std::string> notes;
+};
+
+/// Reads the maps side by side. `options` are for color maps; of all others only the limit of texels, for
+/// their values are plain and mean what is stored. Throws as read_image does.
+ReadSamples read_samples(std::span<const MaterialFile> files, const ReadOptions& options);
 
 /// A line for the user, with marked fields, if a sample, read as `map`, is a color only because nothing else
 /// was said, while its name says that it is another map; else empty.

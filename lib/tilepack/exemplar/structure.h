@@ -18,7 +18,7 @@ struct StructureOptions {
 
 /// The image with one more channel, last: the distance of each texel to the nearest strong edge, 0 on it and
 /// `weight` · 255 from structure_range texels on. With it comparisons see outlines, and not colors alone: the
-/// middle of one stone does not pass for the rim of another, and a cut between two stones runs where both
+/// middle of one stone does not pass for the edge of another, and a cut between two stones runs where both
 /// have their gaps [LH06].
 ///
 /// Strong are the edges of the tenth of all texels at which the smoothed color changes most. Where that is a

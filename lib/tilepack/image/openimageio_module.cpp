@@ -95,11 +95,14 @@ void* loaded_module() {
   check_memory();
   // Never unloaded: OpenImageIO keeps threads. Its symbols are nobody else's business.
   void* module = open_module();
+  const std::string fault = module ? "" : ::dlerror();
+  if (fault.find("failed to map") != std::string::npos || fault.find("annot allocate") != std::string::npos)
+    cant_start(fault);
   if (!module)
     throw Error(ErrorKind::internal, openimageio_module_name,
                 fmt::format("reads and writes image files other than PNG and cannot be loaded ({}); install "
                             "tilepack again, name the library's folder in LD_LIBRARY_PATH, or use PNG",
-                            ::dlerror()));
+                            fault));
   const auto* version = static_cast<const char*>(::dlsym(module, "tilepack_module_version"));
   if (!version || std::strcmp(version, TILEPACK_VERSION) != 0)
     throw Error(ErrorKind::internal, openimageio_module_name,

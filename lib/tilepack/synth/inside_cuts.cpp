@@ -19,9 +19,9 @@ InsideCuts::InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std
         frame.at(x, y) = {0, 0};
         continue;
       }
-      const bool rim =
+      const bool outermost =
           std::min({x, y, frame.width - 1 - x, frame.height - 1 - y}) < std::max(1, shape.guard / scale);
-      constraints.push_back(rim                                  ? CutConstraint::keep
+      constraints.push_back(outermost                            ? CutConstraint::keep
                             : near_border(shape, full_x, full_y) ? CutConstraint::unbiased
                                                                  : CutConstraint::free);
       frame.at(x, y) = {std::clamp(s.x / scale, 0, image.width - 1),
