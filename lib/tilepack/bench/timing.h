@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-/// The one place of the library that reads clocks.
+/// The one place of the library that reads clocks, but for the shares of time of a bake (bake/stage_clock.h).
 namespace tilepack {
 
 /// Processor time of this thread, seconds from some start: what other programs take away doesn't count.
