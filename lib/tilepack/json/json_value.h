@@ -76,7 +76,7 @@ struct JsonValue::Member {
 
 enum class JsonLetters {
   utf8,
-  ascii, ///< all others as \uXXXX
+  ascii, ///< all others as \u and four hexadecimal digits
 };
 
 /// One entry or member a line, indented by 2; a newline at the end.
