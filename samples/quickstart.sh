@@ -9,7 +9,7 @@ install_packages build
 echo "Building tilepack ..."
 tests=ON # the same build folder serves tests/run.sh, where what tests need is installed
 if [ -n "$(missing_packages "$test_packages")" ]; then tests=OFF; fi
-cmake --preset release -D TILEPACK_TESTS=$tests >/dev/null
+cmake --preset release -D TILEPACK_TESTS=$tests -D TILEPACK_WHOLE_ROOMS=ON >/dev/null
 cmake --build --preset release --target tilepack_cli
 tilepack=build/release/tilepack
 

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 install_packages test
 
 for preset in release sanitize; do
-  cmake --preset "$preset" >/dev/null
+  cmake --preset "$preset" -D TILEPACK_WHOLE_ROOMS=ON >/dev/null # from nothing, half the time
   cmake --build --preset "$preset"
 done
 

@@ -9,7 +9,7 @@ namespace tilepack {
 namespace {
 
 constexpr double negligible = 0.1;     // pixels nobody sees
-constexpr double clearly_faster = 1.1; // times nearer than that are a tie, and a tie goes to plain division
+constexpr double tie_factor = 1.1; // times nearer than that are a tie, and a tie goes to plain division
 constexpr double busy_machine = 0.5;   // typical spread of runs, over their median
 constexpr const char* judged_on = "horizon 100 pixels behind"; // SpanShape::steep
 
@@ -39,7 +39,7 @@ void advise_fastest(const SpanBench& bench, SpanPrecision precision, double Span
   const double best_ns = best->*time;
   const double division_ns = (*division).*time;
   advice.push_back(
-      division_ns < clearly_faster * best_ns
+      division_ns < tie_factor * best_ns
           ? fmt::format("{}, {}: plain division has won, {:.2f} ns a pixel; nothing within {} pixels ({}) is "
                         "10 % faster.",
                         name_of(precision), how, division_ns, negligible, judged_on)

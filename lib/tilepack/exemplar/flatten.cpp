@@ -13,12 +13,12 @@
 namespace tilepack {
 namespace {
 
-constexpr int most_channels = 4;
+constexpr int flattened_channels = 4;
 constexpr double most_gain = 4.0;
 constexpr double least_weight = 1e-6; // of a mean: less is what rounding left
 constexpr double largest_half = 65504.0;
 
-using Means = std::array<double, most_channels>;
+using Means = std::array<double, flattened_channels>;
 
 // How the values of a map are read as what is averaged.
 class Reading {

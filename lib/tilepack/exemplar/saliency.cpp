@@ -11,13 +11,13 @@ namespace tilepack {
 namespace {
 
 constexpr int cell = Saliency::side;
-constexpr int most_channels = 3;
-constexpr std::size_t most_measures = 2 * most_channels; // means, differences between them, contrast
+constexpr int compared_channels = 3;
+constexpr std::size_t most_measures = 2 * compared_channels; // means, differences between them, contrast
 
 using Measures = std::array<std::int64_t, most_measures>;
 
 Measures measured(const FeatureImage& image, int channels, int west, int north) {
-  std::array<std::int64_t, most_channels> sums{};
+  std::array<std::int64_t, compared_channels> sums{};
   std::int64_t steps = 0;
   for (int y = north; y < north + cell; ++y)
     for (int x = west; x < west + cell; ++x) {
@@ -30,9 +30,9 @@ Measures measured(const FeatureImage& image, int channels, int west, int north) 
       }
     }
   Measures measures{};
-  for (std::size_t c = 0; c < most_channels; ++c) measures[c] = sums[c];
+  for (std::size_t c = 0; c < compared_channels; ++c) measures[c] = sums[c];
   for (std::size_t c = 1; c < static_cast<std::size_t>(channels); ++c)
-    measures[most_channels + c - 1] = sums[c] - sums[c - 1];
+    measures[compared_channels + c - 1] = sums[c] - sums[c - 1];
   measures.back() = steps;
   return measures;
 }
@@ -41,7 +41,7 @@ Measures measured(const FeatureImage& image, int channels, int west, int north) 
 
 Saliency saliency_of(const FeatureImage& image) {
   Saliency result{image.width / cell, image.height / cell, {}};
-  const int channels = std::min(image.channels, most_channels);
+  const int channels = std::min(image.channels, compared_channels);
   std::vector<Measures> measures;
   for (int j = 0; j < result.high; ++j)
     for (int i = 0; i < result.wide; ++i) measures.push_back(measured(image, channels, i * cell, j * cell));

@@ -10,19 +10,19 @@ namespace tilepack {
 namespace {
 
 constexpr std::size_t thresholds = 15;
-constexpr int most_channels = 3;
+constexpr int measured_channels = 3;
 
-using Plane = std::vector<int>; // one measure, a value a texel
+using Measure = std::vector<int>; // one measure, a value a texel
 
-Plane values_of(const FeatureImage& image, int channel) {
-  Plane plane;
+Measure values_of(const FeatureImage& image, int channel) {
+  Measure plane;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) plane.push_back(image.texel(x, y)[channel]);
   return plane;
 }
 
-Plane contrast_of(const FeatureImage& image) {
-  Plane plane;
+Measure contrast_of(const FeatureImage& image) {
+  Measure plane;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       int sum = 0;
@@ -35,7 +35,7 @@ Plane contrast_of(const FeatureImage& image) {
 }
 
 // Sums over squares of side 2 reach + 1, clamped at the border; scaled to one number of texels.
-Plane smoothed(const Plane& plane, int width, int height, int reach) {
+Measure smoothed(const Measure& plane, int width, int height, int reach) {
   const std::size_t stride = static_cast<std::size_t>(width) + 1;
   std::vector<int> sums(stride * (static_cast<std::size_t>(height) + 1));
   for (int y = 0; y < height; ++y) {
@@ -46,7 +46,7 @@ Plane smoothed(const Plane& plane, int width, int height, int reach) {
           sums[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x + 1)] + run;
     }
   }
-  Plane result;
+  Measure result;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const auto at = [&](int i, int j) {
@@ -62,14 +62,14 @@ Plane smoothed(const Plane& plane, int width, int height, int reach) {
 }
 
 // Of each channel its values and, next to them, its means over squares; contrast comes last.
-Plane measure(const FeatureImage& image, int channels, int which) {
+Measure measure(const FeatureImage& image, int channels, int which) {
   if (which == 2 * channels) return contrast_of(image);
-  Plane values = values_of(image, which / 2);
+  Measure values = values_of(image, which / 2);
   return which % 2 == 0 ? values : smoothed(values, image.width, image.height, 4);
 }
 
 // They split the values into equal parts.
-std::array<int, thresholds> limits_of(Plane plane) {
+std::array<int, thresholds> limits_of(Measure plane) {
   std::sort(plane.begin(), plane.end());
   std::array<int, thresholds> limits;
   for (std::size_t t = 0; t < thresholds; ++t) limits[t] = plane[plane.size() * (t + 1) / (thresholds + 1)];
@@ -89,14 +89,14 @@ SampleStatistics::SampleStatistics(const FeatureImage& image, int most_texels) {
   }
   width = level->width;
   height = level->height;
-  const int channels = std::min(level->channels, most_channels);
+  const int channels = std::min(level->channels, measured_channels);
   const auto planes = static_cast<std::size_t>(2 * channels + 1);
   functions = static_cast<int>(planes * thresholds);
   const auto count = static_cast<std::size_t>(functions);
   const std::size_t stride = (static_cast<std::size_t>(width) + 1) * count;
   sums.assign(stride * (static_cast<std::size_t>(height) + 1), 0);
   tbb::parallel_for(std::size_t{0}, planes, [&](std::size_t p) {
-    const Plane plane = measure(*level, channels, static_cast<int>(p));
+    const Measure plane = measure(*level, channels, static_cast<int>(p));
     const std::array<int, thresholds> limits = limits_of(plane);
     for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
       std::array<std::int32_t, thresholds> run{};

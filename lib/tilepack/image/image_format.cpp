@@ -14,15 +14,13 @@
 namespace tilepack {
 namespace {
 
-using Bytes = std::span<const unsigned char>;
-
-bool stands(std::string_view magic, Bytes bytes, std::size_t at = 0) {
+bool stands(std::string_view magic, std::span<const unsigned char> bytes, std::size_t at = 0) {
   return at + magic.size() <= bytes.size() &&
          std::equal(magic.begin(), magic.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-std::optional<ImageFormat> format_by_magic(Bytes head) {
+std::optional<ImageFormat> format_by_magic(std::span<const unsigned char> head) {
   using namespace std::string_view_literals;
   struct Magic {
     std::string_view bytes;
@@ -56,7 +54,7 @@ std::optional<ImageFormat> format_by_magic(Bytes head) {
 
 // A TGA begins with no mark; files of version 2 end with one. The older ones are known by their name and by a
 // header that makes sense.
-bool is_tga(const FileBytes& file, const std::filesystem::path& path, Bytes head) {
+bool is_tga(const FileBytes& file, const std::filesystem::path& path, std::span<const unsigned char> head) {
   constexpr std::string_view footer("TRUEVISION-XFILE.\0", 18);
   if (head.size() < 18) return false;
   const int palette = head[1], kind = head[2], bits = head[16];

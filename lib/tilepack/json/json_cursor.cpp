@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/error/nearest_name.h"
+#include "tilepack/json/json_limits.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,9 +15,6 @@ namespace tilepack {
 namespace {
 
 using nlohmann::json;
-
-constexpr int deepest_nesting = 32;
-constexpr std::size_t longest_shown = 48;
 
 const json& value_at(const void* node) {
   return *static_cast<const json*>(node);

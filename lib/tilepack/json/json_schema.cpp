@@ -1,6 +1,7 @@
 #include "tilepack/json/json_schema.h"
 
 #include "tilepack/error/nearest_name.h"
+#include "tilepack/json/json_limits.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,8 +16,6 @@ using Problems = std::vector<SchemaProblem>;
 using Kind = SchemaProblem::Kind;
 
 constexpr std::size_t most_problems = 1000;
-constexpr std::size_t longest_shown = 48;
-constexpr int deepest_nesting = 32;
 
 std::string shown(const Json& value) {
   if (value.is_object()) return "an object";

@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/layout/rotated_lattice.h"
 #include "tilepack/layout/surroundings.h"
+#include "tilepack/numeric/as_size.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/tileset/border_colors.h"
 #include "tilepack/tileset/value_space.h"
@@ -18,10 +19,6 @@ namespace tilepack {
 namespace {
 
 constexpr int most_channels = 4;
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 std::vector<Surroundings> chosen_surroundings(const TileColors& colors, const Layout& layout,
                                               Outside outside) {
@@ -49,8 +46,8 @@ public:
         const auto from = linear.texel(x, y);
         const auto to = both.texel(x, y);
         for (int c = 0; c < colors; ++c) {
-          to[index(c)] = from[index(c)] * from.back();
-          to[index(colors + c)] = from[index(c)];
+          to[as_size(c)] = from[as_size(c)] * from.back();
+          to[as_size(colors + c)] = from[as_size(c)];
         }
         to.back() = from.back();
       }
@@ -78,7 +75,7 @@ private:
 std::vector<int> tiles_on_sites(const RotatedLattice& lattice, const Layout& layout) {
   std::vector<int> tile_on(layout.cells.size());
   for (const Cell& cell : layout.cells)
-    tile_on.at(index(lattice.site_with(cell.column, cell.row))) = cell.tile;
+    tile_on.at(as_size(lattice.site_with(cell.column, cell.row))) = cell.tile;
   return tile_on;
 }
 
@@ -101,10 +98,10 @@ Image rotated_texture(const TileMap& tiles, const TileColors& colors, const Layo
   Image texture(size.width, size.height, tiles.tiles.front().channels());
   tbb::parallel_for(0, size.height, [&](int y) {
     std::array<double, 2 * most_channels> buffer{};
-    const std::span<double> value(buffer.data(), index(linear.front().channels()));
+    const std::span<double> value(buffer.data(), as_size(linear.front().channels()));
     for (int x = 0; x < size.width; ++x) {
       const RotatedLattice::Owner owner = lattice.owner_of(size, x, y);
-      const Image& from = wide[index(tile_on[index(owner.site)])];
+      const Image& from = wide[as_size(tile_on[as_size(owner.site)])];
       resample(from, owner.x * (side + 2 * gutter) - gutter + margin,
                owner.y * (side + 2 * gutter) - gutter + margin, options.filter, value);
       working.to_stored(value, texture.texel(x, y));
@@ -117,10 +114,10 @@ Image rotated_texture(const TileMap& tiles, const TileColors& colors, const Layo
 class OwnTexels {
 public:
   OwnTexels(const Image& of_texture, const RotatedLattice& lattice)
-      : texture(&of_texture), owners(index(of_texture.width()) * index(of_texture.height())) {
+      : texture(&of_texture), owners(as_size(of_texture.width()) * as_size(of_texture.height())) {
     for (int y = 0; y < texture->height(); ++y)
       for (int x = 0; x < texture->width(); ++x)
-        owners[index(y) * index(texture->width()) + index(x)] = lattice.owner_of(texture->size(), x, y).site;
+        owners[as_size(y) * as_size(texture->width()) + as_size(x)] = lattice.owner_of(texture->size(), x, y).site;
   }
 
   void at(Placement::Vector place, int site, std::span<float> out) const {
@@ -160,7 +157,7 @@ private:
   void add(Sum& sum, int x, int y, int site, double weight) const {
     const int tx = wrapped(x, texture->width());
     const int ty = wrapped(y, texture->height());
-    if (weight <= 0 || owners[index(ty) * index(texture->width()) + index(tx)] != site) return;
+    if (weight <= 0 || owners[as_size(ty) * as_size(texture->width()) + as_size(tx)] != site) return;
     const auto texel = texture->texel(tx, ty);
     if (sum.base.empty()) sum.base = texel;
     for (std::size_t c = 0; c < texel.size(); ++c)

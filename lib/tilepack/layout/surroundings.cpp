@@ -1,6 +1,7 @@
 #include "tilepack/layout/surroundings.h"
 
 #include "tilepack/layout/rotated_lattice.h"
+#include "tilepack/numeric/as_size.h"
 #include "tilepack/tileset/border_colors.h"
 
 #include <tbb/parallel_for.h>
@@ -11,10 +12,6 @@
 
 namespace tilepack {
 namespace {
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 template <typename Fits>
 int first_tile(const std::vector<BorderColors>& borders, Fits&& fits) {
@@ -30,7 +27,7 @@ std::vector<Surroundings> fitting_surroundings(const TileColors& tiles) {
   // A corner neighbour needs both side neighbours next to it.
   const auto corner = [&](int a, int b, auto&& fits) {
     if (a < 0 || b < 0) return -1;
-    return first([&](const BorderColors& x) { return fits(x, all[index(a)], all[index(b)]); });
+    return first([&](const BorderColors& x) { return fits(x, all[as_size(a)], all[as_size(b)]); });
   };
   std::vector<Surroundings> result;
   for (const BorderColors& mine : all) {
@@ -55,14 +52,14 @@ std::vector<Surroundings> packed_surroundings(const Layout& rotated) {
   std::vector<int> site_of(rotated.cells.size());
   for (const Cell& cell : rotated.cells) {
     const int site = lattice.site_with(cell.column, cell.row);
-    tile_on[index(site)] = cell.tile;
-    site_of[index(cell.tile)] = site;
+    tile_on[as_size(site)] = cell.tile;
+    site_of[as_size(cell.tile)] = site;
   }
   std::vector<Surroundings> result;
   for (std::size_t tile = 0; tile < site_of.size(); ++tile) {
     const LatticeStep here = lattice.step_to(site_of[tile]);
     const auto at = [&](int east, int south) {
-      return tile_on[index(lattice.site_at({here.east + east, here.south + south}))];
+      return tile_on[as_size(lattice.site_at({here.east + east, here.south + south}))];
     };
     result.push_back({at(-1, -1), at(0, -1), at(1, -1), at(-1, 0), at(1, 0), at(-1, 1), at(0, 1), at(1, 1)});
   }
@@ -72,8 +69,8 @@ std::vector<Surroundings> packed_surroundings(const Layout& rotated) {
 bool colors_match(const TileColors& tiles, const std::vector<Surroundings>& packed) {
   const std::vector<BorderColors> borders = border_colors(tiles);
   for (std::size_t id = 0; id < packed.size(); ++id)
-    if (borders[id].east != borders[index(packed[id].e)].west ||
-        borders[id].south != borders[index(packed[id].s)].north)
+    if (borders[id].east != borders[as_size(packed[id].e)].west ||
+        borders[id].south != borders[as_size(packed[id].s)].north)
       return false;
   return true;
 }
@@ -108,7 +105,7 @@ std::vector<Image> with_margin(const std::vector<Image>& tiles, const std::vecto
           row = column = 1;
         }
         const auto texel =
-            tiles[index(ids[row][column])].texel(from_x - (column - 1) * w, from_y - (row - 1) * h);
+            tiles[as_size(ids[row][column])].texel(from_x - (column - 1) * w, from_y - (row - 1) * h);
         std::copy(texel.begin(), texel.end(), wide.texel(x, y).begin());
       }
     result[id] = std::move(wide);

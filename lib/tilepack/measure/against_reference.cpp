@@ -29,12 +29,12 @@ double across(double u, int side) {
   return u < 0.5 ? u / side : 1.0 - (1.0 - u) / side;
 }
 
-struct Place {
+struct DrawnPlace {
   TileCoordinate x;
   TileCoordinate y;
 };
 
-Place drawn_place(const Pack& pack, Size tile, Zone zone, std::uint64_t seed, std::uint64_t index) {
+DrawnPlace drawn_place(const Pack& pack, Size tile, Zone zone, std::uint64_t seed, std::uint64_t index) {
   const auto cell = [&](std::string_view axis, std::int64_t side) {
     return static_cast<std::int64_t>(drawn(seed, axis, index) * static_cast<double>(side));
   };
@@ -61,9 +61,9 @@ bool has_places(Size tile, Zone zone) {
   return true;
 }
 
-class Comparison {
+class ReferenceRun {
 public:
-  Comparison(const Pack& of_pack, int map_index)
+  ReferenceRun(const Pack& of_pack, int map_index)
       : pack(of_pack), map(of_pack.maps[static_cast<std::size_t>(map_index)]),
         through_pack(of_pack, map_index), truth(GroundTruth::of_level_0(of_pack, map_index)),
         stored(GroundTruth::of_stored_levels(of_pack, map_index)) {}
@@ -88,7 +88,7 @@ private:
   GroundTruth stored;
 };
 
-ZoneError Comparison::zone_error(int level, Zone zone, int lookups, std::uint64_t seed) const {
+ZoneError ReferenceRun::zone_error(int level, Zone zone, int lookups, std::uint64_t seed) const {
   const Size tile = level_size(pack.tile_size, level);
   ZoneError error;
   error.zone = zone;
@@ -96,7 +96,7 @@ ZoneError Comparison::zone_error(int level, Zone zone, int lookups, std::uint64_
   error.lookups = lookups;
   std::vector<std::array<Value, 3>> values(static_cast<std::size_t>(lookups));
   tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
-    const Place place = drawn_place(pack, tile, zone, seed, i);
+    const DrawnPlace place = drawn_place(pack, tile, zone, seed, i);
     through_pack.sample(place.x, place.y, level, Filter::bilinear, part(values[i][0]));
     truth.sample(place.x, place.y, level, Filter::bilinear, part(values[i][1]));
     stored.sample(place.x, place.y, level, Filter::bilinear, part(values[i][2]));
@@ -122,13 +122,13 @@ ZoneError Comparison::zone_error(int level, Zone zone, int lookups, std::uint64_
 }
 
 // On a border itself: once as the end of the western (or northern) tile, once as the start of the next.
-double Comparison::jump(int level, bool corners, int lookups, std::uint64_t seed) const {
+double ReferenceRun::jump(int level, bool corners, int lookups, std::uint64_t seed) const {
   const Size tile = level_size(pack.tile_size, level);
   if (!corners && !has_places(tile, Zone::interior)) return 0;
   const double before_end = std::nextafter(1.0, 0.0);
   std::vector<std::array<Value, 2>> values(static_cast<std::size_t>(lookups));
   tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
-    Place place = drawn_place(pack, tile, corners ? Zone::corner : Zone::interior, seed, i);
+    DrawnPlace place = drawn_place(pack, tile, corners ? Zone::corner : Zone::interior, seed, i);
     TileCoordinate& axis = i % 2 == 0 ? place.x : place.y;
     axis.fraction = before_end;
     through_pack.sample(place.x, place.y, level, Filter::bilinear, part(values[i][0]));
@@ -149,7 +149,7 @@ double Comparison::jump(int level, bool corners, int lookups, std::uint64_t seed
 
 ReferenceErrors against_reference(const Pack& pack, int map, int lookups, std::uint64_t seed,
                                   const Progress& progress) {
-  const Comparison comparison(pack, map);
+  const ReferenceRun run(pack, map);
   const PackedMap& packed = pack.maps[static_cast<std::size_t>(map)];
   ReferenceErrors result{packed.name, std::string(name_of(pack.mip_mode)), pack.guard, {}};
   const int levels = static_cast<int>(packed.levels.size());
@@ -158,9 +158,9 @@ ReferenceErrors against_reference(const Pack& pack, int map, int lookups, std::u
     LevelError error;
     error.level = level;
     for (const Zone zone : {Zone::interior, Zone::edge, Zone::corner})
-      error.zones.push_back(comparison.zone_error(level, zone, lookups, seed));
-    error.jump = comparison.jump(level, false, lookups, seed);
-    error.corner_jump = comparison.jump(level, true, lookups, seed);
+      error.zones.push_back(run.zone_error(level, zone, lookups, seed));
+    error.jump = run.jump(level, false, lookups, seed);
+    error.corner_jump = run.jump(level, true, lookups, seed);
     result.levels.push_back(std::move(error));
   }
   return result;

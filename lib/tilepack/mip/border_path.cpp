@@ -1,5 +1,6 @@
 #include "tilepack/mip/border_path.h"
 
+#include "tilepack/numeric/as_size.h"
 #include "tilepack/numeric/wrap.h"
 
 #include <algorithm>
@@ -8,10 +9,6 @@
 
 namespace tilepack {
 namespace {
-
-std::size_t as_size(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // m(i, j) for i, j = -1..length: the pad is at -1 and length, the ring at 0 and length - 1.
 double line_integral(int i, int j, int length) {

@@ -2,6 +2,7 @@
 
 #include "tilepack/mip/downsample.h"
 #include "tilepack/mip/level_values.h"
+#include "tilepack/numeric/as_size.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,10 +11,6 @@
 
 namespace tilepack {
 namespace {
-
-std::size_t as_size(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Work {
   const TileMap& map;
@@ -72,13 +69,13 @@ private:
 };
 
 // Many values a task: large against what a task costs, small against what all threads share.
-constexpr std::size_t values_a_task = std::size_t{1} << 16;
+constexpr std::size_t values_a_strip = std::size_t{1} << 16;
 
 // The level of which a task makes one row, given those up to `done` of an image with `row_length` values a
 // row there.
 int last_of_task(int done, int levels, std::size_t row_length) {
   int last = done + 1;
-  while (last + 1 < levels && (row_length << (last - done)) < values_a_task) ++last;
+  while (last + 1 < levels && (row_length << (last - done)) < values_a_strip) ++last;
   return last;
 }
 

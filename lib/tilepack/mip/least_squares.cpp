@@ -1,5 +1,6 @@
 #include "tilepack/mip/least_squares.h"
 
+#include "tilepack/numeric/as_size.h"
 #include "tilepack/tileset/border_keys.h"
 
 #include <tbb/parallel_for.h>
@@ -11,10 +12,6 @@
 
 namespace tilepack {
 namespace {
-
-std::size_t as_size(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // Tiles by the key of one of their sides or corners: the tiles that may follow across it.
 using Classes = std::map<int, std::vector<int>>;

@@ -6,6 +6,7 @@
 #include "tilepack/mip/normal_variance.h"
 #include "tilepack/mip/shared_border.h"
 #include "tilepack/mip/level_values.h"
+#include "tilepack/numeric/as_size.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -16,10 +17,6 @@
 
 namespace tilepack {
 namespace {
-
-std::size_t as_size(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 // The mean over the tiles of a group goes to all of them as one value, so they are equal bit for bit,
 // whatever encoding and rounding follow. It is summed in double in the order of ids: a group of equal values

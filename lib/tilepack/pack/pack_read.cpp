@@ -24,7 +24,7 @@ struct Load {
   Encoding encoding;
 };
 
-void plan_maps(std::vector<Load>& loads, std::vector<PackedMap>& maps,
+void plan_reading(std::vector<Load>& loads, std::vector<PackedMap>& maps,
                const std::vector<std::vector<TextureFile>>& files, const fs::path& folder) {
   for (std::size_t m = 0; m < maps.size(); ++m) {
     PackedMap& map = maps[m];
@@ -78,8 +78,8 @@ Pack read_pack(const fs::path& folder_or_json) {
   PackDescription description = read_pack_description(json);
   Pack pack = std::move(description.pack);
   std::vector<Load> loads;
-  plan_maps(loads, pack.maps, description.map_files, folder);
-  if (pack.corner_pack) plan_maps(loads, pack.corner_pack->maps, description.corner_files, folder);
+  plan_reading(loads, pack.maps, description.map_files, folder);
+  if (pack.corner_pack) plan_reading(loads, pack.corner_pack->maps, description.corner_files, folder);
   if (pack.mapping.kind == MappingKind::index)
     pack.mapping.ids = read_index_map(inside_folder(folder, description.index_file), pack.mapping.size,
                                       tile_count(pack.tiles));

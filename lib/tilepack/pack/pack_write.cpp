@@ -56,7 +56,7 @@ struct Task {
   std::function<void()> write;
 };
 
-void plan_maps(std::vector<Task>& tasks, const std::vector<PackedMap>& maps,
+void plan_writing(std::vector<Task>& tasks, const std::vector<PackedMap>& maps,
                const std::vector<std::vector<TextureFile>>& files, const fs::path& folder) {
   for (std::size_t m = 0; m < maps.size(); ++m) {
     const StoredFormat format = maps[m].stored();
@@ -124,8 +124,8 @@ void write_pack(const Pack& pack, const fs::path& folder, const Progress& progre
   StagedFolder staged(folder); // first, since it puts back what a killed process left half done
   const std::vector<std::string> old_files = replaceable_files(folder);
   std::vector<Task> tasks;
-  plan_maps(tasks, pack.maps, description.map_files, staged.path());
-  if (pack.corner_pack) plan_maps(tasks, pack.corner_pack->maps, description.corner_files, staged.path());
+  plan_writing(tasks, pack.maps, description.map_files, staged.path());
+  if (pack.corner_pack) plan_writing(tasks, pack.corner_pack->maps, description.corner_files, staged.path());
   if (!description.index_file.empty()) {
     const Depth depth = tile_count(pack.tiles) <= 256 ? Depth::u8 : Depth::u16;
     tasks.push_back({pack.mapping.ids.size(), [&pack, depth, file = staged.path() / description.index_file] {

@@ -29,7 +29,7 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
   return html + "</tr>\n";
 }
 
-int color_of(SpanMethod method) {
+int color_of_method(SpanMethod method) {
   return static_cast<int>(method);
 }
 
@@ -45,7 +45,7 @@ Plot trade_off(const SpanBench& bench, SpanPrecision precision, SpanShape shape)
     if (f.precision != precision) continue;
     const std::string name(name_of(f.options.method));
     if (plot.series.empty() || plot.series.back().name != name)
-      plot.series.push_back({name, {}, {}, false, true, false, color_of(f.options.method)});
+      plot.series.push_back({name, {}, {}, false, true, false, color_of_method(f.options.method)});
     plot.series.back().points.emplace_back(f.side_by_side, error_of(f, shape).pixels);
     plot.series.back().labels.push_back(name_of(f.options));
   }
@@ -107,7 +107,7 @@ std::string method_table(const SpanBench& bench) {
   return html + "</table>\n";
 }
 
-std::string hard_table(const SpanBench& bench) {
+std::string hard_spans_table(const SpanBench& bench) {
   std::string html = "<table>\n";
   std::vector<std::string> head{"case"};
   for (StepMethod c : all_contestants) head.push_back(std::string(name_of(c)));
@@ -177,7 +177,7 @@ std::string span_bench_page(const SpanBench& bench) {
       "NaN. The first three columns work on a, b, c, d as they are; the others on the canonical form of a "
       "span, and keep the last pixels before the horizon for exact division. A coordinate that is constant "
       "counts 0.</p>\n";
-  html += hard_table(bench);
+  html += hard_spans_table(bench);
   html += fmt::format(
       "<h2>The ground in {} × {}, camera rolled</h2>\n<p>{} pixels. Set-up of all spans {:.3f} "
       "ns a pixel{}, one thread. Shifts against exact division in f64; near the horizon a pixel "

@@ -40,7 +40,7 @@ constexpr std::array<Glyph, drawn_characters.size()> glyphs{{
     {"     ", "     ", "#   #", " # # ", "  #  ", " # # ", "#   #"},
 }};
 
-void lay(Image& image, int x, int y, const Paint& paint, double coverage) {
+void blend(Image& image, int x, int y, const Paint& paint, double coverage) {
   const auto to = image.texel(x, y);
   const double opacity = paint.opacity * coverage;
   const double channels[] = {paint.red, paint.green, paint.blue};
@@ -62,7 +62,7 @@ std::vector<double> crossings(const std::vector<DrawingPoint>& points, double y)
 }
 
 // Exact coverage along x, four sample lines a pixel along y.
-void fill(Image& image, const DrawingShape& shape) {
+void fill_shape(Image& image, const DrawingShape& shape) {
   if (shape.points.size() < 3) return;
   constexpr int lines = 4;
   double top = shape.points[0].y;
@@ -91,7 +91,7 @@ void fill(Image& image, const DrawingShape& shape) {
       }
     }
     for (int x = west; x < east; ++x) {
-      if (coverage[x] > 0) lay(image, x, y, shape.paint, std::min(1.0, coverage[x]));
+      if (coverage[x] > 0) blend(image, x, y, shape.paint, std::min(1.0, coverage[x]));
       coverage[x] = 0;
     }
   }
@@ -114,7 +114,7 @@ void write(Image& image, const DrawingPoint& centre, double height, std::string_
         const bool inside = x >= 0 && y >= 0 && x < image.width() && y < image.height();
         if (inside &&
             glyph[static_cast<std::size_t>(row / dot)][static_cast<std::size_t>(column / dot)] == '#')
-          lay(image, x, y, paint, 1);
+          blend(image, x, y, paint, 1);
       }
   }
 }
@@ -149,7 +149,7 @@ std::string png_data_uri(const Image& image) {
 
 Image rasterised(const VectorDrawing& drawing) {
   Image image = drawing.background;
-  for (const DrawingShape& shape : drawing.shapes) fill(image, shape);
+  for (const DrawingShape& shape : drawing.shapes) fill_shape(image, shape);
   for (const DrawingNumber& n : drawing.numbers)
     write(image, n.centre, n.height, std::to_string(std::abs(n.number)), n.paint);
   for (const DrawingWord& w : drawing.words) write(image, w.centre, w.height, w.word, w.paint);

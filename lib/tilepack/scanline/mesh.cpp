@@ -10,7 +10,7 @@
 namespace tilepack {
 namespace {
 
-constexpr double farthest = 1e9;
+constexpr double farthest_vertex = 1e9;
 
 struct TextureCoordinate {
   double u = 0, v = 0;
@@ -105,7 +105,7 @@ private:
     if (fault != std::errc() || after != text.data() + text.size()) {
       fail(fmt::format("'{}' is no number", text));
     }
-    if (!(std::abs(value) <= farthest)) fail(fmt::format("{} is out of range; -1e9..1e9 is allowed", text));
+    if (!(std::abs(value) <= farthest_vertex)) fail(fmt::format("{} is out of range; -1e9..1e9 is allowed", text));
     return value;
   }
 

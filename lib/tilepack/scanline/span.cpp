@@ -10,7 +10,7 @@ namespace tilepack {
 namespace {
 
 constexpr double steepest = 0x1p40;
-constexpr double farthest = 0x1p61;
+constexpr double farthest_start = 0x1p61;
 
 // c i + d rounded once, so its sign is that of the exact value.
 double depth_at(const SpanCoefficients& run, int i) {
@@ -33,7 +33,7 @@ double clamped(double value, double limit) {
 }
 
 TileCoordinate moved(TileCoordinate origin, double offset) {
-  origin.fraction += clamped(offset, farthest);
+  origin.fraction += clamped(offset, farthest_start);
   return normalised(origin);
 }
 

@@ -23,7 +23,7 @@ struct Choice {
   std::int64_t mismatch;
 };
 
-bool fits_better(const Choice& a, const Choice& b) {
+bool costs_less(const Choice& a, const Choice& b) {
   return std::tuple(a.mismatch, a.place.y, a.place.x) < std::tuple(b.mismatch, b.place.y, b.place.x);
 }
 
@@ -183,7 +183,7 @@ std::vector<std::vector<Choice>> listed_choices(const SearchSpace& space, const 
       const InsideCuts cuts(space, framed[id], options.bias);
       for (Choice& choice : choices[id]) choice.mismatch = cuts.cost(choice.place);
     }
-    std::sort(choices[id].begin(), choices[id].end(), fits_better);
+    std::sort(choices[id].begin(), choices[id].end(), costs_less);
   });
   return choices;
 }

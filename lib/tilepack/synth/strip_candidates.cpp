@@ -23,7 +23,7 @@ std::vector<double> channel_means(const FeatureImage& image, Rect area) {
 }
 
 // Indices of the `count` least values, least first, of equal ones the first.
-std::vector<std::size_t> least_of(const PositionMap& map, std::size_t count) {
+std::vector<std::size_t> least_places(const PositionMap& map, std::size_t count) {
   std::vector<std::size_t> order(map.values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   count = std::min(order.size(), count);
@@ -54,7 +54,7 @@ std::vector<StripCandidate> StripRanking::best(const PositionMap& map, const Str
   const auto wanted = static_cast<std::size_t>(options.candidates);
   const std::size_t spares = static_cast<std::size_t>(options.spares_per_candidate) * wanted;
   std::vector<StripCandidate> apart;
-  for (const std::size_t i : least_of(map, static_cast<std::size_t>(options.places_per_candidate) * wanted)) {
+  for (const std::size_t i : least_places(map, static_cast<std::size_t>(options.places_per_candidate) * wanted)) {
     if (apart.size() >= spares || map.values[i] == ruled_out) break;
     const SourceTexel at{static_cast<int>(i % static_cast<std::size_t>(map.width)),
                          static_cast<int>(i / static_cast<std::size_t>(map.width))};
