@@ -35,6 +35,7 @@ Verb render_verb();
 Verb compare_verb();
 Verb layouts_verb();
 Verb bench_verb();
+Verb shader_verb();
 
 /// All verbs, in the order of the help listing.
 std::span<const Verb> verb_table();
