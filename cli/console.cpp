@@ -19,11 +19,18 @@ Console::Console(std::string command) : command_name(std::move(command)) {
   colored = terminal && (no_color == nullptr || *no_color == '\0');
 }
 
+Console::Console(std::string command, std::string& data, Progress onward)
+    : quiet(true), command_name(std::move(command)), kept(&data), told(std::move(onward)) {}
+
 Console::~Console() {
   erase_progress();
 }
 
 void Console::print(std::string_view data) {
+  if (kept) {
+    *kept += data;
+    return;
+  }
   erase_progress();
   if (std::fwrite(data.data(), 1, data.size(), stdout) != data.size() || std::fflush(stdout) != 0)
     throw Error(ErrorKind::cannot_write, "stdout", "the output could not be written; is the disk full?");
@@ -51,6 +58,7 @@ void Console::line(std::string_view word, const char* color, std::string_view me
 }
 
 Progress Console::progress() {
+  if (kept) return told;
   return [this](std::string_view stage, double done) {
     if (interrupted()) throw Interrupted();
     if (terminal && !quiet) draw(stage, done);

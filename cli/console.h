@@ -16,6 +16,10 @@ class Console {
 public:
   /// `command` is what messages begin with: "tilepack bake".
   explicit Console(std::string command);
+
+  /// For a verb that another one runs: data goes into `data`, which must outlive it, notes and warnings nowhere,
+  /// and progress to `onward`.
+  Console(std::string command, std::string& data, Progress onward);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -42,7 +46,9 @@ private:
   std::string command_name;
   bool terminal = false;
   bool colored = false;
-  std::string drawn; // the progress line on screen, empty if none
+  std::string drawn;           // the progress line on screen, empty if none
+  std::string* kept = nullptr; // data, if it is for another verb
+  Progress told;               // the same of progress
 };
 
 } // namespace tilepack::cli

@@ -3,7 +3,9 @@
 namespace tilepack::cli {
 
 /// Thrown where Ctrl-C takes effect; not an Error, since nothing went wrong.
-struct Interrupted {};
+struct Interrupted {
+  const char* left = "nothing was written"; ///< what follows "interrupted; "
+};
 
 /// True once SIGINT, SIGTERM or SIGHUP came. From its start, the program notes them instead of being ended.
 bool interrupted();

@@ -84,8 +84,8 @@ int guarded_run(const std::vector<std::string>& arguments) {
   Console console(has_verb ? "tilepack " + arguments[0] : "tilepack");
   try {
     return run(arguments, console);
-  } catch (const Interrupted&) {
-    console.note("interrupted; nothing was written");
+  } catch (const Interrupted& interrupt) {
+    console.note(std::string("interrupted; ") + interrupt.left);
   } catch (const Error& error) {
     console.error(error.message(FieldSpelling::option));
     return exit_code(error.kind());

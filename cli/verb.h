@@ -36,6 +36,7 @@ Verb compare_verb();
 Verb layouts_verb();
 Verb bench_verb();
 Verb shader_verb();
+Verb batch_verb();
 
 /// All verbs, in the order of the help listing.
 std::span<const Verb> verb_table();

@@ -16,6 +16,7 @@ install(
   FILES_MATCHING
   PATTERN *.h)
 install(FILES ${PROJECT_SOURCE_DIR}/lib/tilepack/pack/pack.schema.json ${PROJECT_SOURCE_DIR}/lib/tilepack/check/report.schema.json
+              ${PROJECT_SOURCE_DIR}/lib/tilepack/batch/manifest.schema.json
         DESTINATION ${tilepack_share})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets DESTINATION ${tilepack_share})
 

@@ -1,6 +1,6 @@
 # Libraries whose CMake packages in Debian 12 ask for more than they need, or that have none: OpenCV's core (all of
-# OpenCV), Highway. Read by tilepack's build and, installed, by find_package(tilepack).
-foreach(library opencv_core hwy)
+# OpenCV), Highway, xxHash. Read by tilepack's build and, installed, by find_package(tilepack).
+foreach(library opencv_core hwy xxhash)
   if(NOT TARGET tilepack::${library})
     find_library(TILEPACK_${library}_FILE ${library})
     mark_as_advanced(TILEPACK_${library}_FILE)

@@ -1,0 +1,187 @@
+#include "batch_display.h"
+#include "batch_make.h"
+#include "byte_size.h"
+#include "interrupt.h"
+#include "jobs.h"
+#include "value_check.h"
+#include "verb.h"
+
+#include "tilepack/bake/depfile.h"
+#include "tilepack/bake/text_file.h"
+#include "tilepack/batch/batch_run.h"
+#include "tilepack/batch/entry_choice.h"
+#include "tilepack/error/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tilepack::cli {
+namespace {
+
+struct BatchArguments {
+  std::string manifest;
+  std::vector<std::string> only;
+  std::string shard;
+  std::string memory;
+  std::string cache;
+  std::string cache_size;
+  std::string depfile;
+  std::string stamp;
+  std::string log_format = "text";
+  bool dry_run = false;
+  bool changed = false;
+  bool all = false;
+  bool verbose = false;
+  bool wait = true;
+  int jobs = 0;
+};
+
+BatchSettings settings_from(const BatchArguments& arguments) {
+  if (arguments.all && arguments.changed)
+    throw Error(ErrorKind::usage, "--all",
+                "makes everything, and --changed only what changed; give one of them");
+  if (!arguments.cache_size.empty() && arguments.cache.empty())
+    throw Error(ErrorKind::usage, "--cache-size", "goes with --cache");
+  BatchSettings settings;
+  settings.jobs = arguments.jobs;
+  if (!arguments.memory.empty()) settings.memory = parsed_byte_size("--memory", arguments.memory);
+  settings.cache = arguments.cache;
+  if (!arguments.cache_size.empty())
+    settings.cache_size = parsed_byte_size("--cache-size", arguments.cache_size);
+  settings.all = arguments.all;
+  settings.when_busy = arguments.wait ? WhenBusy::wait : WhenBusy::refuse;
+  return settings;
+}
+
+int worst_code(const std::vector<EntryResult>& results) {
+  int code = 0;
+  for (const EntryResult& result : results)
+    if (result.end == EntryEnd::failed) code = std::max(code, exit_code(result.kind));
+  return code;
+}
+
+// What would be made and why, on stdout.
+int print_plan(const Manifest& manifest, const std::vector<EntryResult>& results, bool verbose,
+               Console& console) {
+  std::string text;
+  std::size_t made = 0;
+  for (const EntryResult& result : results) {
+    const std::string& name = manifest.entries[result.entry].name;
+    made += result.end == EntryEnd::built ? 1 : 0;
+    if (result.end == EntryEnd::built) text += fmt::format("{}: {}\n", name, fmt::join(result.reasons, ", "));
+    if (result.end == EntryEnd::failed)
+      text += fmt::format("{}: can't be made: {}\n", name, spelled(result.message, FieldSpelling::json));
+    if (result.end == EntryEnd::current && verbose) text += fmt::format("{}: current\n", name);
+  }
+  console.print(text + fmt::format("{} of {} would be made\n", made, results.size()));
+  return worst_code(results);
+}
+
+void write_depfile(const BatchArguments& arguments, const Manifest& manifest,
+                   const std::vector<std::size_t>& chosen) {
+  if (arguments.depfile.empty() || manifest.entries.empty()) return;
+  const std::string target = arguments.stamp.empty()
+                                 ? target_of(manifest.entries[chosen.empty() ? 0 : chosen.front()])
+                                 : arguments.stamp;
+  write_text_file(arguments.depfile, depfile_text(target, files_read(manifest, chosen)));
+}
+
+int run_once(const BatchArguments& arguments, Console& console) {
+  const BatchSettings settings = settings_from(arguments);
+  const JobLimit limit(arguments.jobs);
+  const Manifest manifest = read_manifest(arguments.manifest);
+  const std::vector<std::size_t> chosen = chosen_entries(manifest, arguments.only, arguments.shard);
+  if (arguments.dry_run)
+    return print_plan(manifest, planned_batch(manifest, chosen, settings), arguments.verbose, console);
+  BatchDisplay display(console, manifest, arguments.log_format == "json" ? LogFormat::json : LogFormat::text,
+                       arguments.verbose);
+  display.expect(chosen.size());
+  BatchWatch watch;
+  watch.make = make_entry;
+  watch.started = [&](std::size_t entry, const auto& reasons) { display.started(entry, reasons); };
+  watch.progress = [&](std::size_t entry, std::string_view stage, double done) {
+    if (interrupted()) throw Interrupted{"what was finished is kept"};
+    display.progress(entry, stage, done);
+  };
+  watch.ended = [&](const EntryResult& result) { display.ended(result); };
+  watch.warned = [&](std::size_t entry, std::string_view message) { display.warned(entry, message); };
+  const std::vector<EntryResult> results = run_batch(manifest, chosen, settings, watch);
+  display.summary(results);
+  const int code = worst_code(results);
+  write_depfile(arguments, manifest, chosen);
+  if (code == 0 && !arguments.stamp.empty()) write_text_file(arguments.stamp, "");
+  return code;
+}
+
+Action declare_batch(Options& options) {
+  auto a = std::make_shared<BatchArguments>();
+  options
+      .option("MANIFEST", a->manifest, "JSON list of what is to be made; manifest.schema.json describes it")
+      .required();
+  add_jobs_option(options, a->jobs);
+  options
+      .option("--memory", a->memory,
+              "most that entries may need beside each other, by the estimate of each: 500M, 4G; no limit "
+              "unless given")
+      .value("SIZE");
+  options.flag("--dry-run", a->dry_run, "say what would be made and why, and make nothing");
+  options.flag("--changed", a->changed, "make what changed, which is what happens without it too");
+  options.flag("--all", a->all, "make everything, also what is current");
+  options
+      .option("--only", a->only,
+              "entries with this name, or whose name matches this pattern, and what they are made from; may "
+              "be repeated")
+      .value("NAME");
+  options
+      .option("--shard", a->shard,
+              "the I-th of N parts of the manifest, I from 1; other entries never move one to another part")
+      .value("I/N");
+  options.switch_flag(
+      "wait", [a](bool on) { a->wait = on; },
+      "wait for another process that writes the same output (default), or let that entry fail");
+  options.group("Cache");
+  options
+      .option("--cache", a->cache,
+              "folder that finished outputs are kept in and taken from, by the content of what they are made "
+              "from; may be shared")
+      .value("DIR");
+  options
+      .option("--cache-size", a->cache_size,
+              "at the end, take out what was used longest ago until it is no larger")
+      .value("SIZE");
+  options.group("For build systems");
+  options.option("--depfile", a->depfile, "write a rule for make or ninja: every file that was read")
+      .value("FILE");
+  options
+      .option("--stamp", a->stamp,
+              "an empty file that is written when all is current; the target of the depfile")
+      .value("FILE");
+  options.group("What is told");
+  options
+      .option("--log-format", a->log_format,
+              "lines on stderr, or one JSON object a line on stdout (batch_log.schema.json)")
+      .one_of("text|json");
+  options.flag("-v,--verbose", a->verbose, "name what is current too, and say why when an entry begins");
+  return [a](Console& console) { return run_once(*a, console); };
+}
+
+} // namespace
+
+Verb batch_verb() {
+  return {"batch", "make everything that a manifest lists and that changed",
+          "  tilepack batch textures.json\n"
+          "  tilepack batch textures.json --dry-run\n"
+          "  tilepack batch textures.json --jobs 8 --memory 4G --cache /mnt/share/packs\n"
+          "  tilepack batch textures.json --only 'rocks/*' --all\n"
+          "A manifest: {\"format\": \"tilepack-manifest\", \"version\": 1,\n"
+          "  \"jobs\": [{\"samples\": \"textures/*.png\", \"output\": \"packs/{stem}\"}]}\n"
+          "Exit code: the highest of all entries that failed.\n",
+          declare_batch};
+}
+
+} // namespace tilepack::cli

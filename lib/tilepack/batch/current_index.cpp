@@ -1,0 +1,171 @@
+#include "tilepack/batch/current_index.h"
+
+#include "tilepack/bake/text_file.h"
+#include "tilepack/error/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace tilepack {
+namespace {
+
+constexpr std::string_view magic = "tilepack-index-1\n";
+constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t margin = second / 10; // coarser than the times of any file system in use but FAT
+
+std::int64_t nanoseconds(const timespec& time) {
+  return std::int64_t{time.tv_sec} * second + time.tv_nsec;
+}
+
+struct FilesState {
+  ContentHash hash;
+  std::int64_t newest = 0;
+};
+
+// None if one of them is not there.
+std::optional<FilesState> state_of_files(const std::vector<std::string>& files) {
+  FilesState state;
+  std::vector<std::uint64_t> numbers;
+  numbers.reserve(files.size() * 5);
+  for (const std::string& file : files) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+    const std::int64_t modified = nanoseconds(status.st_mtim), changed = nanoseconds(status.st_ctim);
+    for (const auto number :
+         {static_cast<std::uint64_t>(status.st_dev), static_cast<std::uint64_t>(status.st_ino),
+          static_cast<std::uint64_t>(status.st_size), static_cast<std::uint64_t>(modified),
+          static_cast<std::uint64_t>(changed)})
+      numbers.push_back(number);
+    state.newest = std::max({state.newest, modified, changed});
+  }
+  state.hash = hash_of({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(numbers[0])});
+  return state;
+}
+
+// The time of a new file beside `file`; 0 where none can be made, and then no file is old enough.
+std::int64_t time_beside(const std::string& file) {
+  std::string name =
+      (std::filesystem::path(file).parent_path() / ".tilepack-clock-").string() + std::string(6, 'X');
+  const int descriptor = ::mkstemp(name.data());
+  if (descriptor < 0) return 0;
+  struct stat status {};
+  const bool good = ::fstat(descriptor, &status) == 0;
+  ::unlink(name.c_str());
+  ::close(descriptor);
+  return good ? nanoseconds(status.st_mtim) : 0;
+}
+
+void put(std::string& text, std::string_view field) {
+  text += fmt::format("{}:", field.size());
+  text += field;
+}
+
+// The next field of `text`, taken off it; false if there is none.
+bool take(std::string_view& text, std::string_view& field) {
+  std::size_t size = 0, digits = 0;
+  while (digits < text.size() && digits < 9 && text[digits] >= '0' && text[digits] <= '9')
+    size = size * 10 + static_cast<std::size_t>(text[digits++] - '0');
+  if (digits == 0 || digits >= text.size() || text[digits] != ':' || size > text.size() - digits - 1)
+    return false;
+  field = text.substr(digits + 1, size);
+  text.remove_prefix(digits + 1 + size);
+  return true;
+}
+
+bool take_hash(std::string_view& text, ContentHash& hash) {
+  std::string_view field;
+  if (!take(text, field)) return false;
+  const auto parsed = parsed_hash(field);
+  if (parsed) hash = *parsed;
+  return parsed.has_value();
+}
+
+} // namespace
+
+CurrentIndex::CurrentIndex(std::string name) : file(std::move(name)) {
+  began = time_beside(file);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return;
+  std::ostringstream text;
+  text << stream.rdbuf();
+  read(text.str());
+}
+
+void CurrentIndex::read(std::string_view bytes) {
+  std::string_view text = bytes;
+  ContentHash whole;
+  if (!text.starts_with(magic)) return;
+  text.remove_prefix(magic.size());
+  if (!take_hash(text, whole) || whole != hash_of(text)) return;
+  for (std::string_view output; take(text, output);) {
+    Note note;
+    std::string_view files, one;
+    if (!take_hash(text, note.request) || !take_hash(text, note.state) || !take(text, files)) return;
+    while (take(files, one)) note.files.emplace_back(one);
+    notes.insert_or_assign(notes.end(), std::string(output), std::move(note));
+  }
+}
+
+std::string CurrentIndex::text() const {
+  std::string body;
+  for (const auto& [output, note] : notes) {
+    put(body, output);
+    put(body, hex(note.request));
+    put(body, hex(note.state));
+    std::string files;
+    for (const std::string& one : note.files) put(files, one);
+    put(body, files);
+  }
+  std::string text(magic);
+  put(text, hex(hash_of(body)));
+  return text + body;
+}
+
+bool CurrentIndex::holds(const std::string& output, const ContentHash& request) const {
+  const Note* note = nullptr; // stays where it is, and only its own entry replaces it
+  {
+    const std::scoped_lock lock(mutex);
+    const auto found = notes.find(output);
+    if (found == notes.end() || found->second.request != request) return false;
+    note = &found->second;
+  }
+  const auto now = state_of_files(note->files);
+  return now && now->hash == note->state;
+}
+
+std::vector<std::string> CurrentIndex::files_of(const std::string& output) const {
+  const std::scoped_lock lock(mutex);
+  const auto found = notes.find(output);
+  return found == notes.end() ? std::vector<std::string>{} : found->second.files;
+}
+
+void CurrentIndex::note(const std::string& output, const ContentHash& request,
+                        const std::vector<std::string>& files) {
+  const auto now = state_of_files(files);
+  const std::scoped_lock lock(mutex);
+  if (now && now->newest < began - margin) {
+    notes.insert_or_assign(output, Note{request, files, now->hash});
+    changed = true;
+  } else {
+    changed |= notes.erase(output) > 0;
+  }
+}
+
+void CurrentIndex::store(const std::vector<std::string>& outputs) {
+  const std::set<std::string_view> known(outputs.begin(), outputs.end());
+  if (std::erase_if(notes, [&](const auto& note) { return !known.contains(note.first); }) > 0) changed = true;
+  if (!changed) return;
+  try {
+    write_text_file(file, text());
+  } catch (const Error&) { // it saves time and no more
+  }
+}
+
+} // namespace tilepack

@@ -1,0 +1,176 @@
+#include "tilepack/batch/entry_state.h"
+
+#include "tilepack/bake/output_check.h"
+#include "tilepack/bake/preset.h"
+#include "tilepack/bake/text_file.h"
+#include "tilepack/error/error.h"
+#include "tilepack/pack/pack_read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace tilepack {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool makes_pack(const BatchEntry& entry) {
+  return entry.verb->output == BatchOutput::pack;
+}
+
+// "pack color_0.png", and "a color_0.png" of the two that are compared.
+void add_pack(std::vector<EntryInput>& inputs, std::string_view key, const std::string& pack) {
+  std::error_code fault;
+  if (!fs::is_directory(pack, fault) &&
+      fs::path(pack).filename() != "pack.json") { // compare takes images too
+    inputs.push_back({std::string(key), pack});
+    return;
+  }
+  const fs::path json = pack_json_of(pack);
+  const std::string folder = json.parent_path().string();
+  std::vector<std::string> names;
+  // What made the pack wrote down its files, which is less to read than pack.json.
+  const auto record = read_record(side_file_of(folder, true));
+  const std::optional<ContentHash> now = record ? hash_if_there(json.string()) : std::nullopt;
+  const bool as_made = record && !record->outputs.empty() && record->outputs.back().name == "pack.json" &&
+                       now == record->outputs.back().hash;
+  if (as_made) {
+    for (const HashedFile& file : record->outputs) names.push_back(file.name);
+  } else {
+    names = read_pack_description(pack).all_files();
+    names.emplace_back("pack.json");
+  }
+  for (const std::string& name : names)
+    inputs.push_back({fmt::format("{} {}", key, name), (fs::path(folder) / name).string()});
+}
+
+} // namespace
+
+std::vector<EntryInput> inputs_of(const Manifest& manifest, const BatchEntry& entry) {
+  std::vector<EntryInput> inputs;
+  if (entry.verb->name == "bake") {
+    const BakeJob job = bake_job_of(manifest, entry);
+    for (const MaterialFile& map : maps_of(job))
+      inputs.push_back({inputs.empty() ? "sample" : "map " + map.name, map.file});
+  } else if (entry.verb->sources.front().is_list) {
+    for (std::size_t i = 0; i < entry.sources.size(); ++i)
+      inputs.push_back({fmt::format("tile {}", i), entry.sources[i]});
+  } else {
+    for (std::size_t i = 0; i < entry.sources.size(); ++i) {
+      const BatchSource& source = entry.verb->sources[i];
+      if (source.is_pack)
+        add_pack(inputs, source.key, entry.sources[i]);
+      else
+        inputs.push_back({std::string(source.key), entry.sources[i]});
+    }
+  }
+  for (const std::string_view option : entry.verb->files_read)
+    for (const BatchOption& given : entry.options)
+      if (given.name == option)
+        for (const std::string& file : given.values) inputs.push_back({std::string(option), file});
+  return inputs;
+}
+
+std::vector<std::string> looked_at(const BatchEntry& entry, const std::vector<EntryInput>& inputs) {
+  std::vector<std::string> files;
+  for (const EntryInput& input : inputs) files.push_back(input.file);
+  if (is_preset_file(entry.preset)) files.push_back(entry.preset);
+  if (entry.verb->name == "bake" && (files.empty() || files.front() != entry.sources.front())) {
+    std::error_code fault;
+    const fs::path sample = entry.sources.front();
+    files.push_back(fs::is_directory(sample, fault) ? sample.string()
+                                                    : (sample.parent_path() / ".").string());
+  }
+  return files;
+}
+
+std::string canonical_options_of(const Manifest& manifest, const BatchEntry& entry) {
+  if (entry.verb->name == "bake") return canonical_options(bake_job_of(manifest, entry));
+  std::map<std::string, std::string> lines{{"verb", std::string(entry.verb->name)},
+                                           {"version", TILEPACK_VERSION}};
+  for (const BatchOption& option : entry.options) {
+    if (is_beside_the_output(option.name)) continue;
+    const auto& read = entry.verb->files_read;
+    const bool is_file = std::find(read.begin(), read.end(), option.name) != read.end();
+    std::string& line = lines[option.name];
+    // Files count by what they hold, which is hashed.
+    for (const std::string& value : option.values)
+      line += fmt::format("{}{}", line.empty() ? "" : ",", is_file ? "a file" : value);
+    std::replace(line.begin(), line.end(), '\n', ' ');
+  }
+  // What a picture is written as depends on its ending.
+  if (entry.verb->output == BatchOutput::file) lines["ending"] = fs::path(entry.output).extension().string();
+  std::string text;
+  for (const auto& [key, value] : lines) text += fmt::format("{}={}\n", key, value);
+  return text;
+}
+
+std::string folder_of_output(const BatchEntry& entry) {
+  return makes_pack(entry) ? entry.output : fs::path(entry.output).parent_path().string();
+}
+
+EntryState state_of(const Manifest& manifest, const BatchEntry& entry) {
+  EntryState state;
+  state.input_files = inputs_of(manifest, entry);
+  state.inputs.options = canonical_options_of(manifest, entry);
+  for (const EntryInput& input : state.input_files)
+    state.inputs.files.push_back({input.name, hash_of_file(input.file)});
+  state.record = read_record(side_file_of(entry.output, makes_pack(entry)));
+  state.reasons = differences(state.record, state.inputs);
+  if (!state.record) return state;
+  for (const HashedFile& made : state.record->outputs) {
+    const auto hash = hash_if_there((fs::path(folder_of_output(entry)) / made.name).string());
+    if (hash != made.hash)
+      state.reasons.push_back(fmt::format("output {} {}", made.name, hash ? "edited" : "missing"));
+  }
+  return state;
+}
+
+std::vector<HashedFile> made_files(const BatchEntry& entry) {
+  std::vector<std::string> names;
+  if (makes_pack(entry)) {
+    names = read_pack_description(entry.output).all_files();
+    names.emplace_back("pack.json");
+  } else {
+    names.push_back(fs::path(entry.output).filename().string());
+  }
+  std::vector<HashedFile> files;
+  for (const std::string& name : names)
+    files.push_back({name, hash_of_file((fs::path(folder_of_output(entry)) / name).string())});
+  return files;
+}
+
+void write_record(const BatchEntry& entry, const BuildRecord& record) {
+  write_text_file(side_file_of(entry.output, makes_pack(entry)), record_text(record));
+}
+
+void clear_broken_pack(const BatchEntry& entry) {
+  if (!makes_pack(entry)) return;
+  std::error_code fault;
+  const fs::path folder(entry.output);
+  if (!fs::is_directory(folder, fault)) return;
+  const fs::path side = side_file_of(entry.output, true);
+  const auto record = read_record(side.string());
+  if (!record) return;
+  const bool has_json = fs::exists(folder / "pack.json", fault);
+  if (has_json) {
+    try {
+      read_pack_description(folder);
+      return;
+    } catch (const Error&) { // broken: made again like any output that was edited
+    }
+  }
+  std::set<std::string> ours{side.filename().string(), ".tilepack-staging"};
+  for (const HashedFile& file : record->outputs) ours.insert(file.name);
+  for (fs::directory_iterator at(folder, fault), end; !fault && at != end; at.increment(fault))
+    if (!ours.contains(at->path().filename().string())) return;
+  for (const HashedFile& file : record->outputs)
+    if (file.name.find('/') == std::string::npos) fs::remove(folder / file.name, fault);
+  fs::remove(side, fault);
+}
+
+} // namespace tilepack

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "tilepack/batch/build_record.h"
+#include "tilepack/batch/manifest.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tilepack {
+
+/// What stands at the head of a file of the cache: the files of an output, which follow in this order.
+struct CachedOutput {
+  struct File {
+    std::string name; ///< relative to the folder of the output
+    std::uint64_t size = 0;
+    ContentHash hash;
+  };
+  std::vector<File> files;
+  std::size_t head_size = 0; ///< bytes before the first of them
+};
+
+/// The head of `bytes`; none if it is damaged, cut short, or names what can't be a file of an output.
+std::optional<CachedOutput> parsed_cache_head(std::string_view bytes);
+
+std::string cache_head_text(const std::vector<CachedOutput::File>& files);
+
+/// Finished outputs by the hash of what they are made from, in a folder that many processes on many machines may
+/// share: an output is one file, written under another name, flushed to disk and then renamed, so that whoever
+/// finds it finds it whole; there is no lock. A file whose content is not what its head says is taken for none.
+class OutputCache {
+public:
+  /// `folder` is made when first written to.
+  explicit OutputCache(std::string folder) : root(std::move(folder)) {}
+
+  /// Puts the output that `key` stands for in place, as a bake would, and says which files it has; none if it is
+  /// not there or damaged, and then nothing has happened. Throws Error (cannot_write) if it can't be put there.
+  std::optional<std::vector<HashedFile>> restore(const ContentHash& key, const BatchEntry& entry) const;
+
+  /// Keeps the output of `entry`. Throws Error (cannot_write), and then nothing is kept.
+  void keep(const ContentHash& key, const BatchEntry& entry, const std::vector<HashedFile>& files) const;
+
+  /// Removes what was used longest ago until no more than `most_bytes` are left, and what killed writers left.
+  void shrink_to(std::int64_t most_bytes) const;
+
+  /// The file that holds the output of `key`.
+  std::string file_of(const ContentHash& key) const;
+
+private:
+  std::string root;
+};
+
+} // namespace tilepack
