@@ -5,6 +5,7 @@
 #include "verb.h"
 
 #include "tilepack/bake/bake_job.h"
+#include "tilepack/bake/map_kinds.h"
 #include "tilepack/bake/material_read.h"
 #include "tilepack/bake/preset.h"
 #include "tilepack/bake/text_file.h"
@@ -30,6 +31,7 @@ struct BakeArguments {
   std::vector<std::string> maps;
   std::string preset;
   bool list_presets = false;
+  bool list_maps = false;
   std::string encoding;
   std::string channels;
   std::int64_t max_texels = usual_most_texels;
@@ -86,6 +88,10 @@ int run_bake(const BakeArguments& arguments, Console& console) {
     console.print(arguments.report_format == "json" ? listed_presets_json() : listed_presets());
     return 0;
   }
+  if (arguments.list_maps) {
+    console.print(kinds_text());
+    return 0;
+  }
   const JobLimit limit(arguments.jobs);
   const BakeJob job = job_from(arguments);
   BakeSummary story{std::filesystem::path(job.sample).filename().string(), {}, {}};
@@ -115,14 +121,19 @@ Action declare_bake(Options& options) {
       "image to make tiles from, or folder of the maps of a material (rock_albedo.png, rock_normal.png …)");
   options.option("-o,--output", arguments->folder, "folder of the pack").value("DIR");
   options
-      .option("--map", arguments->maps,
-              "a further map of the material, in register with SAMPLE; may be repeated")
+      .option(
+          "--map", arguments->maps,
+          "a further map of the material, in register with SAMPLE; may be repeated. ROLE is data or one of " +
+              listed_kinds())
       .value("ROLE=FILE");
   options
       .option("--preset", arguments->preset,
               "options from a built-in preset or a JSON file; flags override it")
       .value("NAME|FILE");
   options.flag("--list-presets", arguments->list_presets, "show the built-in presets and end");
+  options.flag(
+      "--list-maps", arguments->list_maps,
+      "show the kinds of maps, and the endings of file names that they are known by in a folder, and end");
   for (const BakeField& field : bake_fields()) add_field_option(options, field, arguments->fields);
   options
       .option("--encoding", arguments->encoding,

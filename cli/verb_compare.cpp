@@ -1,3 +1,4 @@
+#include "sample_reading.h"
 #include "value_check.h"
 #include "verb.h"
 
@@ -25,6 +26,7 @@ struct CompareArguments {
   std::string picture;
   double gain = 8;
   CompareLimits limits;
+  ReadingArguments reading;
 };
 
 bool names_pack(const std::string& name) {
@@ -56,9 +58,9 @@ int run_compare(const CompareArguments& arguments, Console& console) {
   if (packs) {
     comparison = compared(read_pack(arguments.a), read_pack(arguments.b));
   } else {
-    const ImageFile a = read_image(arguments.a);
+    const ImageFile a = read_noted(arguments.a, arguments.reading, Role::color, console);
     report(progress, "reading", 0.5);
-    const ImageFile b = read_image(arguments.b);
+    const ImageFile b = read_noted(arguments.b, arguments.reading, Role::color, console);
     report(progress, "comparing", 0.0);
     comparison = compared(a, b);
     if (!arguments.picture.empty()) write_picture(arguments, a, b);
@@ -93,6 +95,7 @@ Action declare_compare(Options& options) {
   options.option("--gain", arguments->gain, "how much the picture magnifies, 0.001 to 1000; 8 unless given")
       .check(number(0.001, 1000))
       .value("N");
+  add_reading_options(options, arguments->reading);
   return [arguments](Console& console) { return run_compare(*arguments, console); };
 }
 

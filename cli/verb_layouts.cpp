@@ -1,3 +1,4 @@
+#include "sample_reading.h"
 #include "value_check.h"
 #include "verb.h"
 
@@ -23,12 +24,13 @@ struct LayoutsArguments {
   bool power_of_two = false;
   std::string format = "text";
   std::string sample; ///< advice: measure the loss on it
+  ReadingArguments reading;
 };
 
-LayoutQuestion question_of(const LayoutsArguments& arguments) {
+LayoutQuestion question_of(const LayoutsArguments& arguments, Console& console) {
   LayoutQuestion question{arguments.tile_side, arguments.gutter, arguments.power_of_two, {}};
   if (!arguments.sample.empty()) {
-    ImageFile file = read_image(arguments.sample);
+    ImageFile file = read_noted(arguments.sample, arguments.reading, Role::color, console);
     question.sample =
         SampleMap{arguments.sample, Role::color, file.encoding, file.depth, std::move(file.image)};
   }
@@ -85,7 +87,7 @@ int run_layouts(const LayoutsArguments& arguments, Console& console) {
   if (!arguments.sample.empty() && !arguments.tiles)
     throw Error(ErrorKind::usage, "--sample", "goes with --tiles: name the count that is to be measured");
   const bool json = arguments.format == "json";
-  const LayoutQuestion question = question_of(arguments);
+  const LayoutQuestion question = question_of(arguments, console);
   if (arguments.tiles) {
     console.print(json ? json_text(layout_answers_value(layout_answers(*arguments.tiles, question)))
                        : advice_text(*arguments.tiles, question));
@@ -128,6 +130,7 @@ Action declare_layouts(Options& options) {
       .value("IMAGE");
   options.flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
   options.option("--format", arguments->format, "of the table").one_of("text|json");
+  add_reading_options(options, arguments->reading);
   return [arguments](Console& console) { return run_layouts(*arguments, console); };
 }
 

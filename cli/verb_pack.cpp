@@ -1,6 +1,7 @@
 #include "bake_field_options.h"
 #include "bake_report.h"
 #include "jobs.h"
+#include "sample_reading.h"
 #include "value_check.h"
 #include "verb.h"
 
@@ -32,6 +33,7 @@ struct PackArguments {
   std::string role = "color";
   std::string report_format = "text";
   double tolerance = 0;
+  ReadingArguments reading;
   int jobs = 0;
   std::map<std::string, std::string> fields;
 };
@@ -73,8 +75,9 @@ int run_pack(const PackArguments& arguments, Console& console) {
   std::vector<HandDrawnTile> drawings;
   const Role role = enum_called<Role>(arguments.role, "--role", "role");
   for (const std::string& file : arguments.tiles)
-    drawings.push_back(
-        {file, read_image(file, role == Role::color ? std::nullopt : std::optional(Encoding::linear))});
+    drawings.push_back({file, read_noted(file, arguments.reading, role, console)});
+  for (const std::string& note : complete_drawings(drawings, role))
+    console.note(spelled(note, FieldSpelling::option));
   TileSet set = drawn_set(drawings, tiles, arguments.name, role);
   const PackingPlan plan = planned_packing(options, set.tiles, set.tile_size);
   check_agreement(set, arguments.tolerance, console);
@@ -112,6 +115,7 @@ Action declare_pack(Options& options) {
       .value("X");
   for (const BakeField& field : packing_fields()) add_field_option(options, field, arguments->fields);
   options.option("--report-format", arguments->report_format, "of the summary on stdout").one_of("text|json");
+  add_reading_options(options, arguments->reading);
   add_jobs_option(options, arguments->jobs);
   return [arguments](Console& console) { return run_pack(*arguments, console); };
 }

@@ -23,7 +23,7 @@ Image lattice(int twist, int channels = 1) {
 
 TEST_CASE("equal images: infinite PSNR, SSIM 1, no difference") {
   const Image a = lattice(1, 3);
-  const ImageDifference d = difference(a, a, ValueRange::unit, 255);
+  const ImageDifference d = difference(a, a, FullRange::unit, 255);
   CHECK(d.equal);
   CHECK_FALSE(d.psnr);
   CHECK(d.ssim == Approx(1));
@@ -38,7 +38,7 @@ TEST_CASE("figures of a known pair, computed by the definitions in another progr
     Image b = a;
     for (std::size_t i = 0; i < b.data().size(); ++i)
       b.data()[i] = 0.75f * a.data()[i] + 0.25f * twisted.data()[i];
-    const ImageDifference d = difference(a, b, ValueRange::unit, 255);
+    const ImageDifference d = difference(a, b, FullRange::unit, 255);
     CHECK(d.psnr.value() == Approx(19.9951245).epsilon(1e-6));
     CHECK(d.ssim == Approx(0.9204577).epsilon(1e-5));
     CHECK(d.largest == Approx(60.0));
@@ -50,7 +50,7 @@ TEST_CASE("one step of 8 bits in one of 64 values: 18 dB above the 48.13 of a st
   const Image a(8, 8, 1, 100.0f / 255.0f);
   Image b = a;
   b.texel(5, 6)[0] = 101.0f / 255.0f;
-  const ImageDifference d = difference(a, b, ValueRange::unit, 255);
+  const ImageDifference d = difference(a, b, FullRange::unit, 255);
   CHECK_FALSE(d.equal);
   CHECK(d.differing == 1);
   CHECK(d.largest == Approx(1).epsilon(1e-5));
@@ -80,7 +80,7 @@ TEST_CASE("images smaller than the window are compared with a smaller one") {
 TEST_CASE("floats are held against their own range") {
   const Image a(4, 4, 1, 100.0f);
   const Image b(4, 4, 1, 99.0f);
-  const ImageDifference d = difference(a, b, ValueRange::unbounded, 1);
+  const ImageDifference d = difference(a, b, FullRange::unbounded, 1);
   CHECK(d.peak == 100);
   CHECK(d.largest == 1);
   CHECK(d.psnr.value() == Approx(40));
@@ -92,11 +92,11 @@ TEST_CASE("NaN and infinity are equal to themselves, and counted apart where onl
   Image a(4, 1, 1, 0.5f);
   a.texel(0, 0)[0] = nan;
   a.texel(1, 0)[0] = infinity;
-  CHECK(difference(a, a, ValueRange::unbounded, 1).equal);
+  CHECK(difference(a, a, FullRange::unbounded, 1).equal);
   Image b = a;
   b.texel(1, 0)[0] = -infinity;
   b.texel(2, 0)[0] = nan;
-  const ImageDifference d = difference(a, b, ValueRange::unbounded, 1);
+  const ImageDifference d = difference(a, b, FullRange::unbounded, 1);
   CHECK_FALSE(d.equal);
   CHECK(d.differing == 2);
   CHECK(d.not_comparable == 2);
@@ -105,9 +105,9 @@ TEST_CASE("NaN and infinity are equal to themselves, and counted apart where onl
 }
 
 TEST_CASE("images of different shape can't be compared") {
-  CHECK_THROWS_AS(difference(Image(2, 2, 1), Image(2, 3, 1), ValueRange::unit, 255), Error);
-  CHECK_THROWS_AS(difference(Image(2, 2, 1), Image(2, 2, 3), ValueRange::unit, 255), Error);
-  CHECK_THROWS_AS(difference(Image(), Image(), ValueRange::unit, 255), Error);
+  CHECK_THROWS_AS(difference(Image(2, 2, 1), Image(2, 3, 1), FullRange::unit, 255), Error);
+  CHECK_THROWS_AS(difference(Image(2, 2, 1), Image(2, 2, 3), FullRange::unit, 255), Error);
+  CHECK_THROWS_AS(difference(Image(), Image(), FullRange::unit, 255), Error);
 }
 
 TEST_CASE("the picture shows the difference magnified, and in magenta what can't be compared") {

@@ -51,9 +51,37 @@ TEST_CASE("flat normals change no roughness, and the option leaves it as it is")
     CHECK(level.tiles[0].texel(0, 0)[0] == 0.3f);
 }
 
+TEST_CASE("roughness inside a packed map takes up the spread too, and gloss its opposite") {
+  const double lean = 0.6;
+  TileSet set = material(lean, 0.3f);
+  TileMap& packed = set.maps.emplace_back();
+  packed.name = "orm";
+  packed.role = Role::data;
+  packed.encoding = Encoding::linear;
+  packed.contents = {ChannelContent::ao, ChannelContent::roughness, ChannelContent::metallic,
+                     ChannelContent::gloss};
+  Image texels(8, 8, 4, 0.3f);
+  for (int i = 0; i < 64; ++i) texels.texel(i % 8, i / 8)[3] = 0.7f;
+  packed.tiles = {texels};
+  const auto roughness = mip_chain(set, 0, {});
+  const auto chain = mip_chain(set, 2, {});
+  for (std::size_t level = 1; level < 4; ++level) {
+    const auto texel = chain[level].tiles[0].texel(0, 0);
+    CHECK(texel[0] == Approx(0.3f));
+    CHECK(texel[1] == roughness[level].tiles[0].texel(0, 0)[0]);
+    CHECK(texel[2] == Approx(0.3f));
+    CHECK(texel[3] == Approx(1.0f - texel[1]).margin(1e-6));
+    CHECK(chain[level].contents == packed.contents);
+  }
+  MipOptions plain;
+  plain.roughness_from_normals = false;
+  CHECK(mip_chain(set, 2, plain)[3].tiles[0].texel(0, 0)[1] == Approx(0.3f));
+}
+
 TEST_CASE("roughness stays within 0 to 1, even where the normals cancel out") {
   Image roughness(1, 1, 2, 0.5f);
-  add_normal_variance(roughness, Image(1, 1, 3, 0.0f));
+  const MapFormat format{"roughness", Role::roughness};
+  add_normal_variance(roughness, Image(1, 1, 3, 0.0f), roughness_channels(format, 2));
   CHECK(roughness.texel(0, 0)[0] == 1.0f);
   CHECK(roughness.texel(0, 0)[1] == 0.5f); // alpha
 }

@@ -149,6 +149,43 @@ TEST_CASE("fields that contradict each other are refused", "[pack]") {
   CHECK_FALSE(changed("/version", 2));
 }
 
+TEST_CASE("what values stand for is kept, and is for maps of one role", "[pack]") {
+  using enum ChannelContent;
+  Pack pack = test::noise_pack();
+  REQUIRE(pack.maps.size() == 2); // color and height
+  pack.maps[1].range = ValueRange{-0.1, 1234.5};
+  CHECK(parsed_pack_json(pack_json(described(pack)), "pack.json").pack.maps[1].range ==
+        ValueRange{-0.1, 1234.5});
+  pack.maps[0].role = Role::normal;
+  pack.maps[0].normal_y = NormalY::down;
+  CHECK(parsed_pack_json(pack_json(described(pack)), "pack.json").pack.maps[0].normal_y == NormalY::down);
+  pack.maps[0].normal_y.reset();
+  pack.maps[0].role = Role::data;
+  pack.maps[0].contents = {ao, roughness, metallic};
+  const std::string text = pack_json(described(pack));
+  const PackDescription again = parsed_pack_json(text, "pack.json");
+  CHECK(again.pack.maps[0].contents == pack.maps[0].contents);
+  CHECK(pack_json(again) == text);
+
+  const json good = json::parse(text);
+  const auto changed = [&](const char* place, const json& value) {
+    json other = good;
+    other[json::json_pointer(place)] = value;
+    return accepted(other);
+  };
+  REQUIRE(changed("/maps/1/range", {0, 1}));
+  CHECK_FALSE(changed("/maps/1/range", {1, 1}));
+  CHECK_FALSE(changed("/maps/1/range", {2, 1}));
+  CHECK_FALSE(changed("/maps/1/range", {0}));
+  CHECK_FALSE(changed("/maps/1/range", {0, 1e31}));
+  CHECK_FALSE(changed("/maps/0/range", {0, 1})); // of no height
+  CHECK_FALSE(changed("/maps/0/contents", {"ao", "roughness"}));
+  CHECK_FALSE(changed("/maps/0/contents", {"ao", "roughness", "dirt"}));
+  CHECK_FALSE(changed("/maps/1/contents", {"height"}));
+  CHECK_FALSE(changed("/maps/0/normal_y", "up"));
+  CHECK_FALSE(changed("/maps/0/role", "occlusion"));
+}
+
 TEST_CASE("figures of the synthesis are optional, and all or none", "[pack]") {
   Pack pack = test::noise_pack();
   CHECK(pack_json(described(pack)).find("synthesis") == std::string::npos);

@@ -1,10 +1,12 @@
 #include "tilepack/bake/bake.h"
 
 #include "tilepack/bake/bake_fields.h"
+#include "tilepack/bake/material_values.h"
 #include "tilepack/error/error.h"
 #include "tilepack/exemplar/flatten.h"
 #include "tilepack/exemplar/period.h"
 #include "tilepack/pack/file_name.h"
+#include "tilepack/pack/stored_format_for.h"
 #include "tilepack/tileset/limits.h"
 #include "tilepack/tileset/sequential_set.h"
 
@@ -96,10 +98,16 @@ void check_samples(std::span<const SampleMap> samples, const BakeOptions& option
                   fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
                               map.image.width(), map.image.height(), label_of(samples[0]),
                               samples[0].image.width(), samples[0].image.height()));
-    if (map.role == Role::normal && map.image.channels() == 1)
-      throw Error(ErrorKind::invalid_content, label_of(map),
-                  "has 1 channel, and a normal map has 3: x, y and z; give another role, such as height");
-    check_values(map, options.depth.value_or(map.depth));
+    if (map.role == Role::normal && map.image.channels() < 3)
+      throw Error(
+          ErrorKind::invalid_content, label_of(map),
+          fmt::format("has {} channel{}, and a normal map has 3: x, y and z; give another role, such as "
+                      "height",
+                      map.image.channels(), map.image.channels() == 1 ? "" : "s"));
+    const StoredFormat stored = stored_format_for(map.role, map.encoding, map.depth,
+                                                  {options.format, options.depth}, StoredFor::pack);
+    check_values(map, stored.depth);
+    check_storable(map, stored.depth);
   }
 }
 

@@ -11,11 +11,12 @@
 namespace tilepack {
 
 /// Sample maps → flattening → synthesis → layout → mips → mapping → pack, in memory. `samples[0]` is the main
-/// map.
+/// map; all are as prepare_maps() leaves them.
 ///
 /// Throws Error: usage for options that are out of range, contradict each
 /// other or would make a texture over most_texels_a_level; invalid_content for samples of unequal sizes or
-/// too small; and what the stages throw. Deterministic as they are.
+/// too small, or with values that the depth asked for can't hold;
+/// and what the stages throw. Deterministic as they are.
 Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress = {});
 
 /// A pack and how it came about, for reports.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -175,6 +176,39 @@ std::string get_flatten(const BakeOptions& o) {
   return o.flatten > 0 ? fmt::format("{}", o.flatten) : "";
 }
 
+void set_normal_y(BakeOptions& o, const std::string& text) {
+  o.material.normal_y = text == "auto" ? std::nullopt : enum_named<NormalY>(text);
+  if (!o.material.normal_y && text != "auto") refuse_value(text, alternatives_of<NormalY>() + "|auto");
+}
+
+std::string get_normal_y(const BakeOptions& o) {
+  return o.material.normal_y ? std::string(name_of(*o.material.normal_y)) : "";
+}
+
+void set_height_range(BakeOptions& o, const std::string& text) {
+  o.material.height_range.reset();
+  o.material.fit_height_range = text == "auto";
+  if (o.material.fit_height_range) return;
+  ValueRange range;
+  const char* const end = text.data() + text.size();
+  const auto low = std::from_chars(text.data(), end, range.low);
+  bool good = low.ec == std::errc() && low.ptr != end && *low.ptr == ',';
+  if (good) {
+    const auto high = std::from_chars(low.ptr + 1, end, range.high);
+    constexpr double most = 1e30;
+    good = high.ec == std::errc() && high.ptr == end && range.low < range.high && range.low >= -most &&
+           range.high <= most;
+  }
+  if (!good) refuse_value(text, "A,B: two numbers, A less than B, such as -1.5,20; or auto");
+  o.material.height_range = range;
+}
+
+std::string get_height_range(const BakeOptions& o) {
+  if (o.material.fit_height_range) return "auto";
+  if (!o.material.height_range) return "";
+  return fmt::format("{},{}", o.material.height_range->low, o.material.height_range->high);
+}
+
 std::vector<BakeField> make_fields() {
   using O = BakeOptions;
   using enum FieldScope;
@@ -224,6 +258,12 @@ std::vector<BakeField> make_fields() {
        "coarser levels of roughness take up the spread of the normals they average"},
       {"alpha-coverage", material, whole_number(0, 100, at(&O::mips, &MipOptions::alpha_coverage)),
        "coarser levels keep the share of texels whose alpha reaches N percent, 1 to 100; 0: they don't"},
+      {"normal-y", material, read_by(Type::choice, "up|down|auto", set_normal_y, get_normal_y),
+       "which way green of the normals points in the pack, up (OpenGL) or down (DirectX), turned where the "
+       "sample's points the other way, by its name or its slopes; auto: as the sample's"},
+      {"height-range", material, read_by(Type::choice, "A,B|auto", set_height_range, get_height_range),
+       "heights that are stored as 0 and 1, kept in pack.json: of floats, which are brought there, and of "
+       "integers, which fill it already; auto: the least and the greatest of floats"},
       {"mapping", packing, choice(at(&O::mapping)),
        "how the tile of a cell is found: hash table, integer hash, a pattern without near repeats placed by "
        "the hash (corner colors; then the default), or a stored map"},

@@ -2,6 +2,7 @@
 
 #include "tilepack/bake/depfile.h"
 #include "tilepack/bake/material_read.h"
+#include "tilepack/bake/material_values.h"
 #include "tilepack/bake/memory_estimate.h"
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/preset.h"
@@ -108,6 +109,14 @@ void write_job(const BakeJob& job, const std::vector<std::string>& inputs, const
   beside.wait();
 }
 
+ReadOptions reading_for(const BakeJob& job) {
+  ReadOptions reading;
+  reading.encoding = job.encoding;
+  reading.channels = job.channels;
+  reading.most_texels = job.max_texels;
+  return reading;
+}
+
 BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWatch& watch) {
   const std::vector<MaterialFile> maps = maps_of(job);
   const std::vector<std::string> inputs = inputs_of(job, maps);
@@ -117,14 +126,15 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   const Progress progress = clock.around(progress_of(job.name, watch.progress));
   report(progress, "reading", 0.0);
   BakedJob baked;
-  ReadOptions reading;
-  reading.encoding = job.encoding;
-  reading.channels = job.channels;
-  reading.most_texels = job.max_texels;
-  ReadSamples read = read_samples(maps, reading);
+  ReadSamples read = read_samples(maps, reading_for(job));
   baked.samples = std::move(read.maps);
-  if (watch.note)
-    for (const std::string& note : read.notes) watch.note(note);
+  const auto tell = [&](const std::vector<std::string>& notes) {
+    if (watch.note)
+      for (const std::string& note : notes) watch.note(note);
+  };
+  tell(notes_on_material(job));
+  tell(read.notes);
+  tell(prepare_maps(baked.samples, options.material));
   if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
       watch.note && !doubt.empty())
     watch.note(doubt);
@@ -152,9 +162,32 @@ BakeOptions options_of(const BakeJob& job) {
 }
 
 std::vector<MaterialFile> maps_of(const BakeJob& job) {
-  std::vector<MaterialFile> files = sample_files(job.sample);
+  std::vector<MaterialFile> files = sample_files(job.sample).files;
+  // A map that is named takes the place of one that was found; two that are named for one place are an error,
+  // found later.
+  if (files.size() > 1 || files.front().file != job.sample)
+    std::erase_if(files, [&](const MaterialFile& found) {
+      return std::any_of(job.maps.begin(), job.maps.end(),
+                         [&](const MaterialFile& named) { return named.name == found.name; });
+    });
   files.insert(files.end(), job.maps.begin(), job.maps.end());
   return files;
+}
+
+std::vector<std::string> notes_on_material(const BakeJob& job) {
+  constexpr std::size_t most = 8;
+  std::vector<std::string> notes;
+  std::vector<PassedOver> list = sample_files(job.sample).passed_over;
+  std::erase_if(list, [&](const PassedOver& over) {
+    return std::any_of(job.maps.begin(), job.maps.end(), [&](const MaterialFile& map) {
+      std::error_code unknown;
+      return fs::equivalent(map.file, over.file, unknown);
+    });
+  });
+  for (const PassedOver& over : std::span(list).first(std::min(most, list.size())))
+    notes.push_back(note_on(over));
+  if (list.size() > most) notes.push_back(fmt::format("{} more files are passed over", list.size() - most));
+  return notes;
 }
 
 std::vector<std::string> files_read(const BakeJob& job) {
@@ -180,6 +213,8 @@ std::string canonical_options(const BakeJob& job) {
   for (const MaterialFile& map : maps_of(job)) {
     std::string& list = lines["maps"];
     list += fmt::format("{}{}:{}", list.empty() ? "" : ",", map.name, name_of(map.role));
+    for (const ChannelContent content : map.contents) list += fmt::format(":{}", name_of(content));
+    if (map.normal_y) list += fmt::format(":{}", name_of(*map.normal_y));
   }
   lines["channels"] = job.channels;
   lines["encoding"] = job.encoding ? std::string(name_of(*job.encoding)) : "";
@@ -193,8 +228,9 @@ std::int64_t peak_memory(const BakeJob& job) {
   return blaming(job, [&](const auto& settings) {
     std::vector<MapShape> shapes;
     for (const MaterialFile& map : maps_of(job)) {
-      const ImageHeader header = read_image_header(map.file);
-      shapes.push_back({header.size, header.channels, header.depth});
+      const ImageHeader header = read_image_header(map.file, reading_of(map.role, reading_for(job)));
+      const int channels = map.role == Role::normal ? std::max(3, header.channels) : header.channels;
+      shapes.push_back({header.size, channels, header.depth});
     }
     const std::size_t threads =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

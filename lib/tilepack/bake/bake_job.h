@@ -47,8 +47,12 @@ std::vector<BakeSetting> settings_of(const BakeJob& job);
 /// What they come to. Throws as preset_called and bake_options do.
 BakeOptions options_of(const BakeJob& job);
 
-/// The maps of the material, the main one first. Throws as sample_files does.
+/// The maps of the material, the main one first. A map that is named goes before one of that name that was found
+/// in a folder. Throws as sample_files does.
 std::vector<MaterialFile> maps_of(const BakeJob& job);
+
+/// A line a file that looks like a map of the material and isn't taken, with marked fields; of many the first.
+std::vector<std::string> notes_on_material(const BakeJob& job);
 
 /// Every file that decides what the pack holds: the maps, and the preset if it is a file.
 std::vector<std::string> files_read(const BakeJob& job);
@@ -59,7 +63,8 @@ std::vector<std::string> files_written(const BakeJob& job);
 
 /// All that reaches the bytes of the pack besides the content of the maps' files, as lines "KEY=VALUE\n" in
 /// alphabetical order: every field of bake_fields() with defaults filled in (empty: left to what the sample or
-/// the set asks for), "channels", "encoding", "maps" (NAME:ROLE in order, without their files) and "version" (of
+/// the set asks for), "channels", "encoding", "maps" (NAME:ROLE in order, and what else their
+/// names say, without their files) and "version" (of
 /// tilepack). Two jobs with the same text and the same content of maps make the same pack. Where an option was
 /// set, from which preset, and what the files are called has no say in it.
 std::string canonical_options(const BakeJob& job);
@@ -70,7 +75,7 @@ std::int64_t peak_memory(const BakeJob& job);
 
 /// A pack that a job has made and stored.
 struct BakedJob {
-  std::vector<SampleMap> samples; ///< as read
+  std::vector<SampleMap> samples; ///< as read and prepared
   BakedPack made;
   PackDescription description;    ///< of made.pack, as written
   std::vector<StageShare> stages; ///< what took the time

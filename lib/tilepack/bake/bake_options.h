@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/bake/material_values.h"
 #include "tilepack/bake/packing.h"
 #include "tilepack/numeric/enum_names.h"
 #include "tilepack/synth/synth_options.h"
@@ -28,6 +29,7 @@ struct BakeOptions : PackingOptions {
     synth.colors = {0, 0, 2};
   }
 
+  MaterialOptions material; ///< for prepare_maps(), before bake()
   SynthOptions synth;
   bool fit_tile_size = false; ///< tile sides become whole periods of the sample, near synth.tile_size
   SetKind set = SetKind::complete;

@@ -1,5 +1,6 @@
 #include "tilepack/bake/hand_drawn_set.h"
 
+#include "tilepack/bake/material_normals.h"
 #include "tilepack/error/error.h"
 #include "tilepack/json/json_cursor.h"
 #include "tilepack/tileset/border_agreement.h"
@@ -9,7 +10,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace tilepack {
 namespace {
@@ -64,6 +67,21 @@ TileColors parsed_color_list(std::string_view text, const std::string& file) {
   return edges;
 }
 
+std::vector<std::string> complete_drawings(std::vector<HandDrawnTile>& drawings, Role role) {
+  std::vector<std::string> notes;
+  std::set<std::string> told;
+  if (role != Role::normal) return notes;
+  for (HandDrawnTile& drawing : drawings) {
+    SampleMap map{{"normal", role, Encoding::linear, drawing.image.depth},
+                  std::move(drawing.image.image),
+                  drawing.file};
+    for (const std::string& sentence : complete_normals(map))
+      if (told.insert(sentence).second) notes.push_back(drawing.file + ": " + sentence);
+    drawing.image.image = std::move(map.image);
+  }
+  return notes;
+}
+
 TileSet drawn_set(std::span<const HandDrawnTile> drawings, const TileColors& tiles,
                   const std::string& map_name, Role role) {
   if (drawings.size() != static_cast<std::size_t>(tile_count(tiles)))
@@ -99,7 +117,7 @@ TileSet drawn_set(std::span<const HandDrawnTile> drawings, const TileColors& til
         return TileColors(reordered);
       },
       tiles);
-  TileMap map{map_name, role, role == Role::color ? first.encoding : Encoding::linear, first.depth, {}};
+  TileMap map{map_name, role, is_light(role) ? first.encoding : Encoding::linear, first.depth, {}};
   for (const std::size_t drawing : order)
     map.tiles.push_back(quantised(drawings[drawing].image.image, map.depth));
   set.maps.push_back(std::move(map));

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tilepack {
 
@@ -23,6 +24,10 @@ struct HandDrawnTile {
   std::string file;
   ImageFile image;
 };
+
+/// Brings drawings of normals into the form that is averaged (complete_normals()). Returns what was done, a sentence once
+/// with the file it is true of first. Drawings of other roles stay as they are.
+std::vector<std::string> complete_drawings(std::vector<HandDrawnTile>& drawings, Role role);
 
 /// The drawings as a tile set with one map, their guard measured. All must have one size, 4 to 4096 texels a
 /// side, and one number of channels, and there must be as many as colors; the depth and encoding are those of

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/bake/map_kinds.h"
 #include "tilepack/tileset/material_map.h"
 
 #include <optional>
@@ -9,32 +10,48 @@
 
 namespace tilepack {
 
-/// An image file of a material, and what it is in it.
+/// An image file of a material, and what is in it.
 struct MaterialFile {
   std::string name; ///< of the map: "color", "normal", "roughness", "height", "ao", "orm", …
   Role role = Role::color;
-  std::string file; ///< as it was given
+  std::string file;                          ///< as it was given
+  std::vector<ChannelContent> contents = {}; ///< of a packed map; cut to the channels there are on reading
+  std::optional<NormalY> normal_y = {};      ///< as its name says
   bool operator==(const MaterialFile&) const = default;
 };
 
-/// Recognises the maps of one material among the names of files in a folder, by the usual endings:
-///
-///   color      _albedo _basecolor _base_color _color _col _diff _diffuse
-///   normal     _normal _norm _nor _nrm, each also with gl or dx, _gl or _dx: gl is taken if both are there
-///   roughness  _rough _roughness          height  _height _disp _displacement _bump
-///   data       _ao _occlusion _orm _arm _rma _metal _metallic _metalness _gloss _glossiness _specular _mask
-///   …
-///
-/// In any case of letters, also after '-' or '.', and before a resolution ("rock_diff_4k.png"). Files that
-/// are no images by their extension, or have no such ending, are passed over. `prefix`, if not empty, picks
-/// the material of that name. The color map comes first, then normal, roughness, height, the others by name.
-///
-/// Throws Error (invalid_content): no color map, two files for one map, or several materials to choose from
-/// (all are named). `folder` is how messages name the place.
-std::vector<MaterialFile> material_files(std::span<const std::string> file_names, const std::string& prefix,
-                                         const std::string& folder);
+/// A file that looks like a map of a material and is not taken.
+struct PassedOver {
+  std::string file;
+  std::string why;   ///< "its format isn't read; …": what follows "FILE is passed over: "
+  std::string label; ///< "normal", "cavity:data": --map LABEL=FILE takes it; empty: nothing does
+  bool operator==(const PassedOver&) const = default;
+};
 
-/// The map that such an ending says this file is; none if it has none.
+/// The maps of one material among the files of a folder.
+struct FoundMaterial {
+  std::vector<MaterialFile> files; ///< color first, then normal, roughness, height, the others by name
+  std::vector<PassedOver> passed_over;
+};
+
+/// Recognises the maps of one material among the names of files in a folder, by the endings of map_kinds():
+/// in any case of letters, behind any separator or a capital ("rock_albedo", "Rock Albedo", "rockAlbedo"), in one
+/// word or several ("Base_Color", "normal-ogl"), before a resolution, a depth or the name of a format
+/// ("rock_diff_4k", "NRM16_2K-PNG"). Files belong together if their names without all that have the same letters
+/// and digits. A file that has the name of the others alone is the color map if no other is. Names that begin
+/// with a dot are not seen.
+///
+/// Of two files for one map the better is taken (NameReading::preference), green up before green down. What looks
+/// like a map of the material and isn't taken is passed over with a reason; pictures of the material as a whole
+/// (preview, thumbnail …) without one. `prefix`, if not empty, picks the material of that name, and its files of
+/// one resolution if it states one ("rock_2k").
+///
+/// Throws Error (invalid_content): no color map (what was seen is named), two files for one map with nothing to
+/// choose by, or several materials (all are named). `folder` is how messages name the place.
+FoundMaterial material_files(std::span<const std::string> file_names, const std::string& prefix,
+                             const std::string& folder);
+
+/// The map that its ending says this file is; none if it has none, or one of a single letter.
 std::optional<MaterialFile> map_by_name(const std::string& file);
 
 } // namespace tilepack

@@ -72,7 +72,7 @@ std::vector<RoundTrip> round_trips(const SampleMap& sample, const LayoutCandidat
     throw Error(ErrorKind::invalid_content, sample.name,
                 fmt::format("{} x {} texels hold no tile of {}", sample.image.width(), sample.image.height(),
                             tile_side));
-  TileMap map{sample.name, sample.role, sample.encoding, sample.depth, {}};
+  TileMap map(sample, {});
   const int tiles = tile_count(plan.scheme);
   for (int tile = 0; tile < tiles; ++tile) {
     const auto place = [&](const char* axis, int free) {

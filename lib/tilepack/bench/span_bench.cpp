@@ -213,7 +213,7 @@ void measure_view(SpanBench& bench, const Pack* pack, bool quick, const Progress
         exact, view_pixels(scene.spans(0, size.height), size.width, 0, size.height, stepping), tile);
     if (texture) {
       figures.psnr =
-          difference(exact_picture, textured(*texture, target, scene, stepping), ValueRange::unit, 255).psnr;
+          difference(exact_picture, textured(*texture, target, scene, stepping), FullRange::unit, 255).psnr;
       figures.textured = true;
     }
     bench.views.push_back(figures);

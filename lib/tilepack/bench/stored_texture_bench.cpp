@@ -112,7 +112,7 @@ std::vector<BenchRatio> mip_ratios(const Pack& pack, const std::filesystem::path
   const int tiles = std::max(1, mip_side / pack.tile_size.width);
   const Size size{tiles * pack.tile_size.width, tiles * pack.tile_size.height};
   const PackedMap& map = pack.maps[0];
-  const Encoding encoding = map.role == Role::color && map.depth == Depth::u8 ? Encoding::srgb : map.encoding;
+  const Encoding encoding = is_light(map.role) && map.depth == Depth::u8 ? Encoding::srgb : map.encoding;
   const std::string image = (folder / ("mips." + std::string(name_of(usual_container(map.depth))))).string();
   write_image(image, virtual_texture(pack, 0, 0, {0, 0, size.width, size.height}), map.depth, encoding);
   std::vector<double> wall_ratios, processor_ratios, file_ratios, level_ratios;

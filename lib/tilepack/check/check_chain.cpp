@@ -3,6 +3,7 @@
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/mip/downsample.h"
 #include "tilepack/mip/level_size.h"
+#include "tilepack/mip/normal_variance.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -25,8 +26,8 @@ constexpr int smallest_turned = 8;
 // Levels whose texels are plain boxes of the finer level's. Normals are renormalised, roughness takes up what
 // they lose, and alpha may be scaled to keep its coverage: those are the mip stage's own affair.
 bool plain_boxes(const PackedMap& map) {
-  const bool averaged = map.role == Role::color || map.role == Role::height || map.role == Role::data;
-  return averaged && color_channels(map.channels) == map.channels;
+  return map.role != Role::normal && roughness_channels(map, map.channels).empty() &&
+         color_channels(map.channels) == map.channels;
 }
 
 double full_range(const PackedMap& map) {
@@ -58,7 +59,7 @@ std::optional<double> rms_inside(const LevelView& fine, const LevelView& coarse,
   const auto& to = coarse.rects[static_cast<std::size_t>(tile)];
   if (!from || !to || to->width < 3 || to->height < 3) return std::nullopt;
   if (from->width != 2 * to->width || from->height != 2 * to->height) return std::nullopt;
-  const Encoding encoding = fine.map->role == Role::color ? fine.map->encoding : Encoding::linear;
+  const Encoding encoding = is_light(fine.map->role) ? fine.map->encoding : Encoding::linear;
   const Image boxes = halved(decoded(crop(*fine.image, *from), encoding, fine.map->depth), Weighting::plain);
   const Image expected = from_linear(crop(boxes, {1, 1, to->width - 2, to->height - 2}), encoding);
   double sum = 0;
@@ -111,7 +112,7 @@ double rms_difference(const Image& a, const Image& b) {
 std::vector<Issue> check_turned_map(const Pack& pack, const PackedMap& map) {
   std::vector<Issue> issues;
   const int levels = std::min(static_cast<int>(map.levels.size()), level_count(pack.tile_size));
-  const Encoding encoding = map.role == Role::color ? map.encoding : Encoding::linear;
+  const Encoding encoding = is_light(map.role) ? map.encoding : Encoding::linear;
   const double range = full_range(map);
   const auto tiles_of_level = [&](int level) -> std::vector<Image> {
     const Image& image = map.levels[static_cast<std::size_t>(level)];

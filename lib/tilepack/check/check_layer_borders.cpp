@@ -55,8 +55,7 @@ std::vector<Issue> check_layer_borders(const Pack& pack) {
     for (int level = 0; level < std::min(static_cast<int>(map.levels.size()), 31); ++level) {
       const Image& image = map.levels[static_cast<std::size_t>(level)];
       if (layout.border >> level == 0 || !has_right_size(pack, image, level)) continue;
-      const TileMap tiles{map.name, map.role, map.encoding, map.depth,
-                          tiles_at_level(image, layout, pack.tile_size, level)};
+      const TileMap tiles(map, tiles_at_level(image, layout, pack.tile_size, level));
       const Image expected = place_tiles(tiles, pack.tiles, layout, pack.tile_size, level);
       const int height = image.height() / layout.rows;
       for (const Cell& cell : layout.cells)

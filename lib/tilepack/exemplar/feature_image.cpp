@@ -28,6 +28,7 @@ struct Source {
 double weight_of(Role role) {
   switch (role) {
   case Role::color:
+  case Role::emissive:
     return 1.0;
   case Role::normal:
     return 0.5;
@@ -36,6 +37,9 @@ double weight_of(Role role) {
   case Role::height:
     return 0.625;
   case Role::data:
+  case Role::ao:
+  case Role::metallic:
+  case Role::opacity:
     break;
   }
   return 0.25;
@@ -108,7 +112,7 @@ void add_sources(const SampleMap& map, std::vector<Source>& sources) {
   const int plain_channels = image.channels() - (alpha ? 1 : 0);
   Curve curve;
   curve.scale = 255.0 * weight;
-  if (map.role == Role::color && map.encoding == Encoding::linear) {
+  if (is_light(map.role) && map.encoding == Encoding::linear) {
     curve.compressed = true;
     const double clipped = std::max(most_of_usual * quantile(image, plain_channels, usual_share), 0.0);
     curve.mean = std::max(mean_of_positive(image, plain_channels, clipped), 1e-30);

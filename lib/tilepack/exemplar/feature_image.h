@@ -13,12 +13,12 @@ namespace tilepack {
 /// of two texels says how visible it is to put one beside the other.
 ///
 /// Channels, by the role of the map they come from, in units in which 255 is the full range:
-///   color      encoded values; of a linear map v / (v + mean), which has no upper end and spreads the brightness
+///   color, emissive  encoded values; of a linear map v / (v + mean), which has no upper end and spreads the brightness
 ///              of any exposure evenly (sparks hardly count to the mean); times alpha where there is one
 ///   normal     the stored components, weight 1/2
 ///   roughness  weight 3/8
 ///   height     stretched to the range of nearly all of the map, weight 5/8
-///   data       weight 1/4
+///   the rest   weight 1/4
 /// Channels that don't vary are left out (one is always kept). Values out of 0..1 of maps that are not height
 /// or linear color are clamped.
 ///

@@ -9,17 +9,17 @@
 namespace tilepack {
 namespace {
 
-ValueRange range_of(Depth depth) {
-  return depth == Depth::u8 || depth == Depth::u16 ? ValueRange::unit : ValueRange::unbounded;
+FullRange range_of(Depth depth) {
+  return depth == Depth::u8 || depth == Depth::u16 ? FullRange::unit : FullRange::unbounded;
 }
 
-ComparedPart compared_part(std::string name, const Image& a, const Image& b, ValueRange range) {
+ComparedPart compared_part(std::string name, const Image& a, const Image& b, FullRange range) {
   ComparedPart part{std::move(name), "", range, std::nullopt};
   if (a.size() != b.size() || a.channels() != b.channels() || a.empty())
     part.mismatch = fmt::format("{} x {} of {} channels and {} x {} of {}", a.width(), a.height(),
                                 a.channels(), b.width(), b.height(), b.channels());
   else
-    part.figures = difference(a, b, range, range == ValueRange::unit ? 255 : 1);
+    part.figures = difference(a, b, range, range == FullRange::unit ? 255 : 1);
   return part;
 }
 
@@ -64,7 +64,7 @@ void compare_maps(const std::vector<PackedMap>& a, const std::vector<PackedMap>&
     facts.compare(name + ", encoding", name_of(map.encoding), name_of(other->encoding));
     facts.compare(name + ", depth", name_of(map.depth), name_of(other->depth));
     facts.compare(name + ", levels", map.levels.size(), other->levels.size());
-    const ValueRange range = std::max(range_of(map.depth), range_of(other->depth));
+    const FullRange range = std::max(range_of(map.depth), range_of(other->depth));
     for (std::size_t level = 0; level < std::min(map.levels.size(), other->levels.size()); ++level)
       result.parts.push_back(compared_part(fmt::format("{}{}, level {}", prefix, map.name, level),
                                            map.levels[level], other->levels[level], range));
@@ -82,8 +82,8 @@ bool keeps(const ComparedPart& part, const CompareLimits& limits) {
          (!limits.min_ssim || d.ssim >= *limits.min_ssim);
 }
 
-std::string_view unit_of(ValueRange range) {
-  return range == ValueRange::unit ? "1/255" : "value";
+std::string_view unit_of(FullRange range) {
+  return range == FullRange::unit ? "1/255" : "value";
 }
 
 std::string part_text(const ComparedPart& part) {
@@ -91,7 +91,7 @@ std::string part_text(const ComparedPart& part) {
   if (!part.figures) return text + fmt::format("  can't be compared: {}\n", part.mismatch);
   const ImageDifference& d = *part.figures;
   if (d.equal) return text + "  equal\n";
-  const std::string unit = part.range == ValueRange::unit ? "/255" : "";
+  const std::string unit = part.range == FullRange::unit ? "/255" : "";
   text += fmt::format("  PSNR                {}\n",
                       d.psnr ? fmt::format("{:.2f} dB (peak {:.6g})", *d.psnr, d.peak) : "infinite");
   text += fmt::format("  SSIM                {:.5f}\n", d.ssim);
@@ -128,7 +128,7 @@ JsonValue part_json(const ComparedPart& part, const CompareLimits& limits) {
 } // namespace
 
 Comparison compared(const ImageFile& a, const ImageFile& b) {
-  const ValueRange range = std::max(range_of(a.depth), range_of(b.depth));
+  const FullRange range = std::max(range_of(a.depth), range_of(b.depth));
   Comparison result;
   if (a.encoding == b.encoding) {
     result.parts.push_back(compared_part("", a.image, b.image, range));

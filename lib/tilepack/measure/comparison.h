@@ -14,7 +14,7 @@ namespace tilepack {
 struct ComparedPart {
   std::string name;                       ///< "color, level 0"; empty for two files
   std::string mismatch;                   ///< why they can't be compared: sizes or channels; else empty
-  ValueRange range = ValueRange::unit;    ///< unit: figures in 1/255 of the range, else plain values
+  FullRange range = FullRange::unit;      ///< unit: figures in 1/255 of the range, else plain values
   std::optional<ImageDifference> figures; ///< absent with a mismatch
 };
 

@@ -163,10 +163,10 @@ double structural_similarity(const Image& a, const Image& b, double peak) {
   return sum / (static_cast<double>(wide) * high * a.channels());
 }
 
-ImageDifference difference(const Image& a, const Image& b, ValueRange range, double scale) {
+ImageDifference difference(const Image& a, const Image& b, FullRange range, double scale) {
   require_same_shape(a, b);
   ImageDifference result;
-  if (range == ValueRange::unbounded) {
+  if (range == FullRange::unbounded) {
     const double largest = std::max(largest_magnitude(a), largest_magnitude(b));
     result.peak = largest > 0 ? largest : 1;
   }

@@ -27,13 +27,14 @@ struct ImageDifference {
                    ///< either image (1 if both are 0)
 };
 
-enum class ValueRange {
+/// What full scale is.
+enum class FullRange {
   unit,      ///< integers, normalised to 0..1
   unbounded, ///< half and float
 };
 
 /// Throws Error (invalid_content) if sizes or channels differ.
-ImageDifference difference(const Image& a, const Image& b, ValueRange range, double scale);
+ImageDifference difference(const Image& a, const Image& b, FullRange range, double scale);
 
 /// Mean structural similarity, 1 for equal images: a Gaussian window of 11 x 11 texels, sigma 1.5, K1 = 0.01,
 /// K2 = 0.03, over all windows that lie wholly inside, mean over channels.   [Wang04, Eq. 13]

@@ -32,7 +32,7 @@ void make_unit(std::span<float> texels, std::size_t channels) {
 }
 
 bool is_srgb(const TileMap& map) {
-  return map.role == Role::color && map.encoding == Encoding::srgb;
+  return is_light(map.role) && map.encoding == Encoding::srgb;
 }
 
 void copy(std::span<const float> from, std::span<float> to) {

@@ -7,7 +7,7 @@
 
 namespace tilepack {
 
-/// The values of whole texels as they may be averaged: linear light for Role::color, unit vectors for normals
+/// The values of whole texels as they may be averaged: linear light for color and emissive, unit vectors for normals
 /// of 3 or 4 channels (the first three; a stored vector is made a unit one first, since its length means
 /// nothing but rounding), stored values for the rest. `to` has the length of `from`, and may be `from`.
 void decode(std::span<const float> from, const TileMap& map, std::span<float> to);

@@ -3,9 +3,9 @@
 #include "tilepack/mip/alpha_coverage.h"
 #include "tilepack/mip/box_levels.h"
 #include "tilepack/mip/least_squares.h"
+#include "tilepack/mip/level_values.h"
 #include "tilepack/mip/normal_variance.h"
 #include "tilepack/mip/shared_border.h"
-#include "tilepack/mip/level_values.h"
 #include "tilepack/numeric/as_size.h"
 
 #include <tbb/blocked_range.h>
@@ -66,9 +66,9 @@ Image encoded(Image tile, const TileMap& map) {
   return tile;
 }
 
-// The normals whose spread the roughness `map` takes up, or null.
-const TileMap* normals_for(const TileMap& map, const TileSet& set, const MipOptions& options) {
-  if (map.role != Role::roughness || !options.roughness_from_normals) return nullptr;
+// The normals whose spread roughness takes up, or null.
+const TileMap* normals_for(const TileSet& set, const MipOptions& options) {
+  if (!options.roughness_from_normals) return nullptr;
   for (const TileMap& other : set.maps)
     if (other.role == Role::normal && other.tiles.front().channels() >= 3) return &other;
   return nullptr;
@@ -81,8 +81,7 @@ std::vector<TileMap> coarser_levels(const TileSet& set, int map_index, const Mip
   const TileMap& map = set.maps[as_size(map_index)];
   const int levels = options.mode == MipMode::none ? 1 : level_count(set.tile_size);
   std::vector<TileMap> coarser;
-  for (int level = 1; level < levels; ++level)
-    coarser.push_back({map.name, map.role, map.encoding, map.depth, std::vector<Image>(map.tiles.size())});
+  for (int level = 1; level < levels; ++level) coarser.push_back({map, std::vector<Image>(map.tiles.size())});
   if (levels == 1) return coarser;
 
   const Weighting weighting = weighting_of(map);
@@ -93,12 +92,14 @@ std::vector<TileMap> coarser_levels(const TileSet& set, int map_index, const Mip
          (options.mode == MipMode::box || exact_through_guard(set.guard, finished + 1)))
     ++finished;
   Levels boxes(as_size(levels), std::vector<Image>(map.tiles.size()));
-  const TileMap* const normals = normals_for(map, set, options);
+  const std::vector<RoughnessChannel> rough = roughness_channels(map, map.tiles.front().channels());
+  const TileMap* const normals = rough.empty() ? nullptr : normals_for(set, options);
   tbb::parallel_for(std::size_t{0}, map.tiles.size(), [&](std::size_t id) {
     std::vector<Image> own = box_levels(map.tiles[id], map, levels, finished);
     if (normals != nullptr) { // roughness is stored as it is averaged
       const std::vector<Image> means = box_levels(normals->tiles[id], *normals, levels, 0);
-      for (std::size_t level = 1; level < own.size(); ++level) add_normal_variance(own[level], means[level]);
+      for (std::size_t level = 1; level < own.size(); ++level)
+        add_normal_variance(own[level], means[level], rough);
     }
     for (int level = 1; level < levels; ++level)
       (level <= finished ? coarser[as_size(level - 1)].tiles : boxes[as_size(level)])[id] =

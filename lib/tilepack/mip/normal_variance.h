@@ -1,8 +1,24 @@
 #pragma once
 
 #include "tilepack/image/image.h"
+#include "tilepack/tileset/material_map.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
 
 namespace tilepack {
+
+/// A channel whose values are a roughness, or 1 minus one.
+struct RoughnessChannel {
+  std::size_t channel = 0;
+  bool gloss = false;
+  bool operator==(const RoughnessChannel&) const = default;
+};
+
+/// Those of a map of `channels` channels: of role roughness all but alpha (last of 2 or 4), of a packed map
+/// the channels that it says hold roughness or gloss.
+std::vector<RoughnessChannel> roughness_channels(const MapFormat& map, int channels);
 
 /// Puts into a roughness level what the normal level of the same texels lost by averaging.
 ///
@@ -14,8 +30,8 @@ namespace tilepack {
 ///
 ///   a'² = a² + 2 s²,     roughness' = a'^(1/2), at most 1.
 ///
-/// `roughness`: 1 to 4 channels of plain values, alpha (last of 2 or 4) left alone. `mean_normals`: same
-/// size, 3 or 4 channels, means of unit vectors, not renormalised. Means of equal vectors change nothing.
-void add_normal_variance(Image& roughness, const Image& mean_normals);
+/// `level`: plain values, of which only `channels` change. `mean_normals`: same size, 3 or 4 channels, means of
+/// unit vectors, not renormalised. Means of equal vectors change nothing.
+void add_normal_variance(Image& level, const Image& mean_normals, std::span<const RoughnessChannel> channels);
 
 } // namespace tilepack

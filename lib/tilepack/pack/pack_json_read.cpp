@@ -7,6 +7,7 @@
 #include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/pack/file_name.h"
+#include "tilepack/pack/map_meaning.h"
 #include "tilepack/pack/pack_json.h"
 #include "tilepack/tileset/limits.h"
 
@@ -237,12 +238,13 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
   for (std::size_t m = 0; m < count; ++m) {
     const JsonCursor value = list.item(m);
     PackedMap map;
+    std::vector<std::string> known{"name",   "role",     "encoding", "depth", "channels",
+                                   "levels", "contents", "normal_y", "range"};
     if (textures.layout.kind == LayoutKind::rotated) {
-      value.only({"name", "role", "encoding", "depth", "channels", "levels", "round_trip_psnr"});
+      known.emplace_back("round_trip_psnr");
       if (const auto trips = value.find("round_trip_psnr")) map.round_trips = read_round_trips(*trips);
-    } else {
-      value.only({"name", "role", "encoding", "depth", "channels", "levels"});
     }
+    value.only(known);
     const JsonCursor name = value.member("name");
     map.name = name.text();
     if (!is_map_name(map.name))
@@ -253,6 +255,7 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
     map.encoding = named<Encoding>(value.member("encoding"));
     map.depth = named<Depth>(value.member("depth"));
     map.channels = value.member("channels").small_integer(1, limits::most_map_channels);
+    read_meaning(value, map, map.channels);
     files.push_back(read_levels(value.member("levels"), textures, used));
     maps.push_back(std::move(map));
   }
@@ -370,9 +373,10 @@ CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vect
   for (std::size_t m = 0; m < packed.maps.size(); ++m) {
     const PackedMap& here = packed.maps[m];
     const PackedMap& there = pack.maps[m];
-    if (here.name != there.name || here.role != there.role || here.encoding != there.encoding ||
-        here.depth != there.depth || here.channels != there.channels)
-      maps.item(m).fail(fmt::format("differs from maps[{}] in name, role, encoding, depth or channels", m));
+    if (static_cast<const MapFormat&>(here) != there || here.channels != there.channels)
+      maps.item(m).fail(fmt::format("differs from maps[{}] in name, role, encoding, depth, channels or what "
+                                    "its values stand for",
+                                    m));
   }
   return packed;
 }

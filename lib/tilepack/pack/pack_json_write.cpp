@@ -1,5 +1,6 @@
 #include "tilepack/json/json_value.h"
 #include "tilepack/mapping/even_pattern.h"
+#include "tilepack/pack/map_meaning.h"
 #include "tilepack/pack/pack_json.h"
 
 #include <fmt/format.h>
@@ -88,8 +89,9 @@ JsonValue maps_json(const std::vector<PackedMap>& maps, const std::vector<MapFil
                     {"role", name_of(maps[m].role)},
                     {"encoding", name_of(maps[m].encoding)},
                     {"depth", name_of(maps[m].depth)},
-                    {"channels", maps[m].channels},
-                    {"levels", levels_json(files[m])}});
+                    {"channels", maps[m].channels}});
+    add_meaning(maps[m], list.back());
+    list.back()["levels"] = levels_json(files[m]);
     for (const RoundTrip& trip : maps[m].round_trips)
       list.back()["round_trip_psnr"][std::string(name_of(trip.filter))] = trip.psnr;
   }

@@ -18,7 +18,7 @@ StoredFormat stored_format_for(Role role, Encoding encoding, Depth depth, const 
   format.depth = stored_depth(depth, request, reader);
   format.container = request.container.value_or(usual_container(format.depth));
   format.encoding = encoding;
-  if (role == Role::color && is_integer(depth) != is_integer(format.depth))
+  if (is_light(role) && is_integer(depth) != is_integer(format.depth))
     format.encoding = is_integer(format.depth) ? Encoding::srgb : Encoding::linear;
   if (reader == StoredFor::picture && format.container == ImageContainer::exr)
     format.encoding = Encoding::linear;

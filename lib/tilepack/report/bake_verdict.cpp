@@ -2,6 +2,7 @@
 
 #include "tilepack/error/field.h"
 #include "tilepack/exemplar/feature_image.h"
+#include "tilepack/exemplar/fireflies.h"
 #include "tilepack/exemplar/flatten.h"
 #include "tilepack/report/verdict_thresholds.h"
 #include "tilepack/tileset/limits.h"
@@ -332,6 +333,8 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
                   0.0,
                   samples[0].image.size(),
                   tile_count(made.pack.tiles)};
+  for (const SampleMap& map : samples)
+    if (facts.fireflies.empty()) facts.fireflies = listed(fireflies(map));
   if (made.flatten < 100 && has_shading(facts.nature)) {
     std::vector<SampleMap> flat;
     for (const SampleMap& map : samples) flat.push_back(flattened(map, 1.0, made.synth.tile_size));
@@ -342,9 +345,9 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
 
 std::span<const std::string_view> remark_codes() {
   static constexpr std::string_view codes[] = {
-      "plain",          "sample-small", "shading",   "writing",  "periods-held", "periods-broken",
-      "no-cuts",        "cuts-hidden",  "cuts-seen", "varied",   "few-parts",    "shown-often",
-      "borders-hidden", "borders-seen", "one-tile",  "landmark", "values-differ"};
+      "plain",          "sample-small", "shading",   "writing",  "periods-held",  "periods-broken",
+      "no-cuts",        "cuts-hidden",  "cuts-seen", "varied",   "few-parts",     "shown-often",
+      "borders-hidden", "borders-seen", "one-tile",  "landmark", "values-differ", "fireflies"};
   return codes;
 }
 
@@ -361,6 +364,11 @@ BakeVerdict bake_verdict(const BakeFacts& facts) {
   judge_borders(facts, verdict.remarks);
   judge_variety(facts, verdict.remarks);
   judge_landmark(facts, verdict.remarks);
+  if (!facts.fireflies.empty())
+    add(verdict.remarks, Grade::good, "fireflies",
+        fmt::format(
+            "The sample has {}. They hardly count where tiles are cut, but tiles show them: paint them over.",
+            facts.fireflies));
   std::stable_sort(verdict.remarks.begin(), verdict.remarks.end(),
                    [](const BakeRemark& a, const BakeRemark& b) { return a.grade > b.grade; });
   verdict.grade = verdict.remarks.front().grade;

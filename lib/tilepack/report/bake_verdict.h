@@ -23,6 +23,7 @@ struct BakeFacts {
   double flat_drift = 0; ///< nature.drift with --flatten 100; only found where it matters, else 0
   Size sample;
   int tiles = 0;
+  std::string fireflies = {}; ///< how many of the sample and where, as listed() has it; empty: none
 };
 
 /// `samples`: those that baked() got.

@@ -259,11 +259,11 @@ Image viewable(const Image& image, Role role, Encoding encoding) {
     for (int x = 0; x < image.width(); ++x)
       for (const float v : image.texel(x, y).first(count))
         if (std::isfinite(v)) sorted.push_back(v);
+  const bool light = is_light(role);
   float low = 0;
   float high = 1;
   if (!sorted.empty()) {
     const auto [least, most] = std::minmax_element(sorted.begin(), sorted.end());
-    const bool light = role == Role::color;
     if (*least < 0 && !light) low = *least;
     const float top = *most;
     if (top > 1) {
@@ -273,7 +273,7 @@ Image viewable(const Image& image, Role role, Encoding encoding) {
     }
     if (!light && role != Role::normal && (low < 0 || top > 1)) high = top > low ? top : low + 1;
   }
-  const bool encode = role == Role::color && encoding == Encoding::linear;
+  const bool encode = light && encoding == Encoding::linear;
   Image result(image.width(), image.height(), 3);
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {

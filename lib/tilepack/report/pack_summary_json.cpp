@@ -1,6 +1,7 @@
 #include "tilepack/error/field.h"
 #include "tilepack/json/json_value.h"
 #include "tilepack/measure/pack_memory.h"
+#include "tilepack/pack/map_meaning.h"
 #include "tilepack/report/pack_summary.h"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ JsonValue map_json(const PackedMap& map) {
                  {"encoding", name_of(map.encoding)},
                  {"depth", name_of(map.depth)},
                  {"channels", map.channels}};
+  add_meaning(map, json);
   for (const RoundTrip& trip : map.round_trips)
     json["round_trip_psnr"][std::string(name_of(trip.filter))] = trip.psnr;
   return json;

@@ -3,8 +3,8 @@
 #include "tilepack/error/error.h"
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/tileset/value_space.h"
 #include "tilepack/pack/pack_maps.h"
+#include "tilepack/tileset/value_space.h"
 
 #include <algorithm>
 #include <string>
@@ -15,8 +15,7 @@ namespace tilepack {
 TileSet tile_set_of(const Pack& pack) {
   TileSet set{pack.tile_size, pack.colors, pack.tiles, {}, pack.guard};
   for (const PackedMap& map : pack.maps)
-    set.maps.push_back({map.name, map.role, map.encoding, map.depth,
-                        tiles_at_level(map.levels.at(0), pack.layout, pack.tile_size, 0)});
+    set.maps.push_back({map, tiles_at_level(map.levels.at(0), pack.layout, pack.tile_size, 0)});
   return set;
 }
 

@@ -21,7 +21,7 @@ Image gathered(const std::vector<SourceTexel>& texels, Size size, const Image& s
 TileSet assembled(const SourceMap& sources, std::span<const SampleMap> samples) {
   TileSet set{sources.tile_size, sources.colors, sources.tiles, {}, sources.guard};
   for (const SampleMap& sample : samples) {
-    TileMap map{sample.name, sample.role, sample.encoding, sample.depth, {}};
+    TileMap map(sample, {});
     map.tiles.reserve(sources.texels.size());
     for (const auto& texels : sources.texels)
       map.tiles.push_back(gathered(texels, sources.tile_size, sample.image));

@@ -1,0 +1,56 @@
+#include "tilepack/pack/map_meaning.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <utility>
+
+namespace tilepack {
+namespace {
+
+constexpr double largest_height = 1e30; // of values that are baked
+
+template <NamedEnum Enum>
+Enum named(const JsonCursor& value) {
+  return enum_names<Enum>[value.one_of(names_of<Enum>())].value;
+}
+
+void check_role(const JsonCursor& field, const MapFormat& map, Role role) {
+  if (map.role != role)
+    field.fail(fmt::format("is for maps of role {}, and this one is {}", name_of(role), name_of(map.role)));
+}
+
+} // namespace
+
+void add_meaning(const MapFormat& map, JsonValue& json) {
+  if (!map.contents.empty()) {
+    JsonValue contents = JsonValue::array();
+    for (const ChannelContent content : map.contents) contents.push_back(name_of(content));
+    json["contents"] = std::move(contents);
+  }
+  if (map.normal_y) json["normal_y"] = name_of(*map.normal_y);
+  if (map.range) json["range"] = JsonValue::array({map.range->low, map.range->high});
+}
+
+void read_meaning(const JsonCursor& json, MapFormat& map, int channels) {
+  if (const auto contents = json.find("contents")) {
+    check_role(*contents, map, Role::data);
+    const auto count = static_cast<std::size_t>(channels);
+    contents->array(count, count);
+    for (std::size_t c = 0; c < count; ++c) map.contents.push_back(named<ChannelContent>(contents->item(c)));
+  }
+  if (const auto y = json.find("normal_y")) {
+    check_role(*y, map, Role::normal);
+    map.normal_y = named<NormalY>(*y);
+  }
+  if (const auto range = json.find("range")) {
+    check_role(*range, map, Role::height);
+    range->array(2, 2);
+    map.range = ValueRange{range->item(0).number(-largest_height, largest_height),
+                           range->item(1).number(-largest_height, largest_height)};
+    if (!(map.range->low < map.range->high))
+      range->fail(fmt::format("{} is no range; the first number is less than the second", range->shown()));
+  }
+}
+
+} // namespace tilepack
