@@ -2,6 +2,7 @@
 
 #include "tilepack/error/field.h"
 #include "tilepack/report/pack_summary.h"
+#include "tilepack/report/size_choice.h"
 
 #include <fmt/format.h>
 
@@ -86,6 +87,9 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
                               "the corners of all tiles agree already, or don't follow from edge colors");
   text += fmt::format("  {:<9} {}, {} x {} tiles\n", "mapping", name_of(pack.mapping.kind),
                       pack.mapping.size.width, pack.mapping.size.height);
+  if (facts && facts->size_chosen)
+    text +=
+        fmt::format("  {:<9} {}\n", "tile size", spelled(size_choice_text(*facts), FieldSpelling::option));
   return facts ? text + verdict_text(*facts) : text;
 }
 

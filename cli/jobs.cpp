@@ -5,7 +5,8 @@
 namespace tilepack::cli {
 
 void add_jobs_option(Options& options, int& jobs) {
-  options.option("--jobs", jobs, "threads, 1 to 1024; 0: as many as the machine has")
+  options.group("General");
+  options.option("--jobs", jobs, "threads, 1 to 1024 (default 0: as many as the machine has)")
       .check(whole_number(0, 1024, " (0: as many as the machine has)"))
       .value("N");
 }

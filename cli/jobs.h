@@ -6,7 +6,7 @@
 
 namespace tilepack::cli {
 
-/// Adds --jobs N, shared by the verbs that compute. Results never depend on it.
+/// Adds --jobs N to the general options, whose heading stays the current one; shared by the verbs that compute. Results never depend on it.
 void add_jobs_option(Options& options, int& jobs);
 
 /// While it lives, no stage uses more than `jobs` threads; 0 leaves the number alone.

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
@@ -38,8 +39,24 @@ std::string listing() {
   return text + exit_codes;
 }
 
+// What someone meant who named a file in place of a verb; empty if that is none.
+std::string meant_by_file(const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code unused;
+  const fs::path path(name);
+  const std::string stem = (path.has_filename() ? path : path.parent_path()).stem().string();
+  if (fs::is_regular_file(path / "pack.json", unused) || path.filename() == "pack.json")
+    return fmt::format("'{0}' is a pack; to see what it holds: `tilepack inspect {0}`", name);
+  // No verb has an ending or lies in a folder.
+  if (fs::exists(path, unused) || (name.front() != '-' && (path.has_extension() || path.has_parent_path())))
+    return fmt::format("'{0}' is no verb; to bake it: `tilepack bake {0} -o {1}.pack`", name,
+                       stem.empty() || stem.front() == '.' ? "material" : stem);
+  return "";
+}
+
 const Verb& verb_named(const std::string& name) {
   if (const Verb* verb = find_verb(name)) return *verb;
+  if (const std::string meant = meant_by_file(name); !meant.empty()) throw Error(ErrorKind::usage, "", meant);
   std::vector<std::string> known{"help"};
   for (const Verb& verb : verb_table()) known.push_back(verb.name);
   const std::string nearest = nearest_name(name, known);
@@ -51,7 +68,10 @@ const Verb& verb_named(const std::string& name) {
 
 int run_verb(const Verb& verb, const std::vector<std::string>& arguments, Console& console) {
   Options options({"tilepack " + verb.name, verb.summary, verb.example, verb.more});
-  options.flag("-q,--quiet", console.quiet, "no progress, notes and warnings");
+  options.group("General");
+  options.flag("-q,--quiet", console.quiet,
+               "no progress, notes and warnings, and no summary of what was made");
+  options.group("");
   const Action action = verb.declare(options);
   if (!options.parse(arguments)) {
     console.print(options.help());

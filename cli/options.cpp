@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 // CLI11 takes long to compile: it is included here alone.
 
@@ -19,11 +22,49 @@ namespace {
 constexpr std::size_t page_width = 100;
 constexpr std::size_t description_column = 34;
 
-// CLI11's help, with descriptions wrapped to the page, flags shown by their names alone, and options that must
-// be given marked "(required)"; which positionals must be, the line of usage says.
+constexpr const char* general_heading = "General";
+constexpr const char* hidden_heading = "Hidden"; // in no help; CLI11 can't name options without a heading
+
+std::string capitalized(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+// CLI11's help, with descriptions wrapped to the page and capital letters at their beginning, flags shown by
+// their names alone, what must be given marked, and the general options last.
 class HelpFormat : public CLI::Formatter {
 public:
   HelpFormat() { column_width(description_column); }
+
+  std::set<const CLI::Option*> needed; // beside those that CLI11 knows to be required
+  std::string sections;                // ready text, shown after the options
+
+  bool must_be_given(const CLI::Option* option) const {
+    return option->get_required() || needed.count(option) != 0;
+  }
+
+  // "tilepack bake SAMPLE -o DIR [OPTIONS]"
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    std::string text = "Usage: " + name;
+    for (const CLI::Option* option : app->get_options({})) {
+      if (!option->get_positional()) continue;
+      const std::string word =
+          option->get_name(true) + (option->get_expected_max() > 1 ? std::string("...") : std::string());
+      text += must_be_given(option) ? " " + word : " [" + word + "]";
+    }
+    for (const CLI::Option* option : app->get_options({}))
+      if (!option->get_positional() && must_be_given(option))
+        text += fmt::format(" {} {}",
+                            option->get_snames().empty() ? "--" + option->get_lnames().front()
+                                                         : "-" + option->get_snames().front(),
+                            option->get_type_name());
+    return text + " [OPTIONS]\n";
+  }
+
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override {
+    return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) + groups(app) +
+           sections + make_footer(app);
+  }
 
   // CLI11 writes "--no-flag{false}" for what a flag's other name stands for; the name says it.
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
@@ -34,20 +75,20 @@ public:
     return name;
   }
 
-  // CLI11 writes REQUIRED, also beside positionals.
+  // CLI11 writes REQUIRED, also beside positionals, which the line of usage marks.
   std::string make_option_opts(const CLI::Option* option) const override {
     if (option->get_expected_max() == 0) return "";
     std::string text;
     if (!option->get_type_name().empty()) text += " " + option->get_type_name();
     if (option->get_positional() && option->get_expected_max() > 1) text += " ...";
-    if (option->get_required() && !option->get_positional()) text += " (required)";
+    if (must_be_given(option) && !option->get_positional()) text += " (required)";
     return text;
   }
 
   // CLI11 indents what follows a line break.
   std::string make_option_desc(const CLI::Option* option) const override {
     const std::size_t width = page_width - get_column_width();
-    std::istringstream words(CLI::Formatter::make_option_desc(option));
+    std::istringstream words(capitalized(CLI::Formatter::make_option_desc(option)));
     std::string text;
     std::size_t column = 0;
     for (std::string word; words >> word;) {
@@ -63,6 +104,23 @@ public:
     }
     return text;
   }
+
+private:
+  std::string groups(const CLI::App* app) const {
+    std::vector<std::string> headings;
+    for (const CLI::Option* option : app->get_options({})) {
+      const std::string& heading = option->get_group();
+      if (option->get_positional() || heading == hidden_heading || heading == general_heading) continue;
+      if (std::find(headings.begin(), headings.end(), heading) == headings.end()) headings.push_back(heading);
+    }
+    headings.emplace_back(general_heading);
+    std::string text;
+    for (const std::string& heading : headings)
+      text += make_group(heading, false, app->get_options([&](const CLI::Option* option) {
+        return option->get_group() == heading && !option->get_positional();
+      }));
+    return text;
+  }
 };
 
 } // namespace
@@ -70,10 +128,11 @@ public:
 class OptionParser {
 public:
   explicit OptionParser(const CommandText& text)
-      : app(text.summary + ".", text.name), more(text.more),
-        common_group(app.option_defaults()->get_group()) {
+      : app(capitalized(text.summary) + ".", text.name), more(text.more),
+        common_group(app.option_defaults()->get_group()), format(std::make_shared<HelpFormat>()) {
     app.footer("\nExample:\n" + text.example);
-    app.formatter(std::make_shared<HelpFormat>());
+    app.formatter(format);
+    app.get_help_ptr()->group(general_heading)->description("print this help and end");
     app.option_defaults()->take_last(); // what collects says take_all itself
   }
 
@@ -100,13 +159,19 @@ public:
     if (flag != extras.end()) {
       std::vector<std::string> known;
       for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+        for (const std::string& name :
+             option->get_group() == hidden_heading ? std::vector<std::string>() : option->get_lnames())
+          known.push_back("--" + name);
       const std::string name = flag->substr(0, flag->find('='));
       const std::string nearest = nearest_name(name, known);
       return fmt::format("unknown option '{}'{}", name,
-                         nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+                         nearest.empty() ? "" : fmt::format("; did you mean {}?", with_short_name(nearest)));
     }
-    if (!extras.empty()) return fmt::format("unexpected argument '{}'{}", extras.front(), more);
+    // A value that is refused tells more than what follows it.
+    if (!extras.empty() && dynamic_cast<const CLI::ValidationError*>(&error) == nullptr) {
+      const std::string told = explain_extra ? explain_extra(extras.front()) : "";
+      return fmt::format("unexpected argument '{}'{}", extras.front(), told.empty() ? more : told);
+    }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
       const std::string what = error.what(); // "--report: 1 required FILE.html missing"
       const std::string name = what.substr(0, what.find(':'));
@@ -116,9 +181,19 @@ public:
     return error.what();
   }
 
+  // "'--output' (-o)"
+  std::string with_short_name(const std::string& name) const {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    return option == nullptr || option->get_snames().empty()
+               ? fmt::format("'{}'", name)
+               : fmt::format("'{}' (-{})", name, option->get_snames().front());
+  }
+
   CLI::App app;
   std::string more;
   std::string common_group;
+  std::shared_ptr<HelpFormat> format;
+  std::function<std::string(const std::string&)> explain_extra;
 
 private:
   std::vector<CLI::Option*> declared;
@@ -141,6 +216,16 @@ Option& Option::one_of(const std::string& words) {
 
 Option& Option::required() {
   parser->at(index).required();
+  return *this;
+}
+
+Option& Option::needed() {
+  parser->format->needed.insert(&parser->at(index));
+  return *this;
+}
+
+Option& Option::hidden() {
+  parser->at(index).group(hidden_heading);
   return *this;
 }
 
@@ -201,6 +286,14 @@ void Options::switch_flag(const std::string& name, std::function<void(bool)> tak
 
 void Options::group(const std::string& heading) {
   parser->app.option_defaults()->group(heading.empty() ? parser->common_group : heading);
+}
+
+void Options::section(const std::string& heading, const std::string& lines) {
+  parser->format->sections += fmt::format("\n{}:\n{}", heading, lines);
+}
+
+void Options::explain_extra(std::function<std::string(const std::string& extra)> explained) {
+  parser->explain_extra = std::move(explained);
 }
 
 bool Options::parse(const std::vector<std::string>& arguments) {

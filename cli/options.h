@@ -33,8 +33,14 @@ public:
   /// `words`, "text|json", are all that is taken, and what the help writes for the value.
   Option& one_of(const std::string& words);
 
-  /// Without it, parsing fails.
+  /// Without it, parsing fails. The help marks it.
   Option& required();
+
+  /// The help marks it as required; that it is there, the verb checks itself.
+  Option& needed();
+
+  /// Taken as before, but in no help: a name that has been given up.
+  Option& hidden();
 
 private:
   friend class Options;
@@ -76,8 +82,16 @@ public:
   /// --NAME tells `taken` true, --no-NAME false.
   void switch_flag(const std::string& name, std::function<void(bool)> taken, const std::string& help);
 
-  /// What is declared from here on stands in the help below this heading; empty: below "Options" again.
+  /// What is declared from here on stands in the help below this heading; headings come in the order of their
+  /// first option, "General" last. Until then: "Options".
   void group(const std::string& heading);
+
+  /// A section of the help of its own, after the options. `lines` end in a line break.
+  void section(const std::string& heading, const std::string& lines);
+
+  /// What follows the message of an argument too many, worked out from that argument when there is one; values
+  /// are filled in by then. Empty: CommandText::more.
+  void explain_extra(std::function<std::string(const std::string& extra)> explained);
 
   /// False if --help was among the arguments; nothing is filled in then. Throws Error (usage), which says
   /// what is wrong and what may have been meant.
@@ -86,7 +100,7 @@ public:
   /// Was it on the command line? For after parsing. `name`: "--level".
   bool given(const std::string& name) const;
 
-  /// The text of --help: 100 columns.
+  /// The text of --help, 100 columns: descriptions begin with a capital letter, whatever was declared.
   std::string help() const;
 
 private:

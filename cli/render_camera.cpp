@@ -82,7 +82,7 @@ void add_camera_options(Options& options, CameraArguments& a) {
               "view in perspective: eye x,y,z, target x,y,z, up x,y,z and the vertical field of view in "
               "degrees, ten numbers; the ground is the plane y = 0, v growing with z")
       .value("EYE,TARGET,UP,FOV");
-  options.option("--size", a.size, "of the view in pixels (default 1280x720)").value("WxH");
+  options.option("--size", a.size, "size of the view in pixels (default 1280x720)").value("WxH");
   options.option("--mesh", a.mesh, "triangles with texture coordinates instead of the ground, an OBJ file")
       .value("FILE.obj");
   options
@@ -107,9 +107,11 @@ void add_camera_options(Options& options, CameraArguments& a) {
       .value("PIXELS");
   options.option("--precision", a.precision, "of the stepping; f32 unless given").one_of("f32|f64");
   options
-      .option("--background", a.background,
-              "what shows where nothing is, one stored value a channel (default 0)")
-      .value("V,V,V");
+      .option(
+          "--background", a.background,
+          "what shows where nothing is: sky, or one stored value a channel (default sky for color maps, 0 "
+          "for others)")
+      .value("sky|V,V,V");
 }
 
 void refuse_camera_options(const Options& options) {
@@ -128,8 +130,8 @@ void refuse_window_options(const Options& options) {
   }
 }
 
-int render_camera(const CameraArguments& arguments, const Texture& texture, const RenderTarget& target,
-                  const std::string& output, Console& console) {
+int render_camera(const CameraArguments& arguments, const Texture& texture, bool shows_color,
+                  const RenderTarget& target, const std::string& output, Console& console) {
   if (arguments.span_error > 0 && arguments.reseed > 0) {
     throw Error(ErrorKind::usage, "--span-error", "chooses --reseed; give one of the two");
   }
@@ -137,7 +139,8 @@ int render_camera(const CameraArguments& arguments, const Texture& texture, cons
   options.stepping = {{span_method_of(arguments.span), arguments.reseed},
                       arguments.precision == "f64" ? SpanPrecision::f64 : SpanPrecision::f32,
                       arguments.span_error};
-  options.background = parsed_background(arguments.background);
+  options.sky = arguments.background == "sky" || (arguments.background.empty() && shows_color);
+  if (!options.sky) options.background = parsed_background(arguments.background);
   const ViewRenderer renderer(texture, scene_of(arguments), camera_of(*arguments.camera),
                               parsed_size(arguments.size), options, target);
 

@@ -21,7 +21,7 @@ struct CameraArguments {
   int reseed = 0;
   double span_error = 0;
   std::string precision = "f32";
-  std::string background;
+  std::string background; ///< "sky", numbers, or empty: the sky of color maps, 0 of others
 };
 
 void add_camera_options(Options& options, CameraArguments& arguments);
@@ -30,8 +30,8 @@ void add_camera_options(Options& options, CameraArguments& arguments);
 void refuse_camera_options(const Options& options); ///< for windows: an option that needs --camera
 void refuse_window_options(const Options& options); ///< for views: --rect, --level, --scale
 
-/// Renders the view of a texture and writes it.
-int render_camera(const CameraArguments& arguments, const Texture& texture, const RenderTarget& target,
-                  const std::string& output, Console& console);
+/// Renders the view of a texture and writes it. `shows_color`: the map's role is color.
+int render_camera(const CameraArguments& arguments, const Texture& texture, bool shows_color,
+                  const RenderTarget& target, const std::string& output, Console& console);
 
 } // namespace tilepack::cli

@@ -11,10 +11,13 @@
 #include "tilepack/bake/text_file.h"
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/pack_summary.h"
+#include "tilepack/tileset/material_map.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -37,7 +40,7 @@ struct BakeArguments {
   std::int64_t max_texels = usual_most_texels;
   std::string depfile;
   std::string report;
-  std::string report_format = "text";
+  PrintedFormat printed;
   int jobs = 0;
   std::map<std::string, std::string> fields; // bake field → what the command line says
 };
@@ -83,15 +86,32 @@ BakeJob job_from(const BakeArguments& arguments) {
   return job;
 }
 
-int run_bake(const BakeArguments& arguments, Console& console) {
+// Where there is a verb for it.
+std::string many_samples() {
+  const auto verbs = verb_table();
+  const bool there = std::any_of(verbs.begin(), verbs.end(), [](const Verb& v) { return v.name == "batch"; });
+  return there ? "; for many samples see `tilepack batch --help`" : "";
+}
+
+// A shell hands on a pattern that nothing matches, or that is quoted, as it is.
+void refuse_pattern(const std::string& sample) {
+  std::error_code unused;
+  if (sample.find_first_of("*?") == std::string::npos || std::filesystem::exists(sample, unused)) return;
+  throw Error(ErrorKind::usage, sample,
+              "is a pattern, and a bake takes one sample: name a file or a folder" + many_samples());
+}
+
+int run_bake(BakeArguments& arguments, Console& console) {
   if (arguments.list_presets) {
-    console.print(arguments.report_format == "json" ? listed_presets_json() : listed_presets());
+    console.print(arguments.printed.json() ? listed_presets_json() : listed_presets());
     return 0;
   }
   if (arguments.list_maps) {
     console.print(kinds_text());
     return 0;
   }
+  refuse_pattern(arguments.sample);
+  const std::string now = arguments.printed.settle(arguments.fields);
   const JobLimit limit(arguments.jobs);
   const BakeJob job = job_from(arguments);
   BakeSummary story{std::filesystem::path(job.sample).filename().string(), {}, {}};
@@ -106,20 +126,44 @@ int run_bake(const BakeArguments& arguments, Console& console) {
     story.stages = baked.stages;
     write_text_file(job.report, bake_page(story, baked.made, baked.samples));
   }
-  console.print(arguments.report_format == "json"
-                    ? made_json(baked.description, job.folder, &story.facts)
-                    : bake_report_text(baked.description, job.folder, &story.facts));
+  if (arguments.printed.json())
+    console.print(made_json(baked.description, job.folder, &story.facts));
+  else if (!console.quiet || arguments.printed.asked_for())
+    console.print(bake_report_text(baked.description, job.folder, &story.facts));
   console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", baked.read_seconds,
                            baked.bake_seconds, baked.write_seconds));
+  if (!now.empty()) console.note(now);
   return 0;
 }
 
+// Maps whose '=' was left out swallow no file, which is then one argument too many.
+std::string explained_extra(const BakeArguments& arguments, const std::string& extra) {
+  for (const std::string& map : arguments.maps)
+    if (map.find('=') == std::string::npos)
+      return fmt::format("; --map {0} has no '=': write --map {0}={1}", map, extra);
+  return "; one sample a bake, and further maps of the material go by --map ROLE=FILE" + many_samples();
+}
+
+std::string preset_lines() {
+  std::string text;
+  for (const Preset& preset : built_in_presets())
+    text += fmt::format("  {:<11} {}\n", preset.name, preset.purpose);
+  return text;
+}
+
+constexpr std::array<std::string_view, 5> first_fields{"tile-size", "colors", "flatten", "effort", "seed"};
+
 Action declare_bake(Options& options) {
   auto arguments = std::make_shared<BakeArguments>();
-  options.option(
-      "SAMPLE", arguments->sample,
-      "image to make tiles from, or folder of the maps of a material (rock_albedo.png, rock_normal.png …)");
-  options.option("-o,--output", arguments->folder, "folder of the pack").value("DIR");
+  options
+      .option("SAMPLE", arguments->sample,
+              "image to make tiles from, or folder of the maps of a material (rock_albedo.png, "
+              "rock_normal.png …)")
+      .needed();
+  options.group(most_used);
+  options.option("-o,--output", arguments->folder, "folder of the pack; made if it is not there")
+      .value("DIR")
+      .needed();
   options
       .option(
           "--map", arguments->maps,
@@ -128,13 +172,17 @@ Action declare_bake(Options& options) {
       .value("ROLE=FILE");
   options
       .option("--preset", arguments->preset,
-              "options from a built-in preset or a JSON file; flags override it")
+              "options from a built-in preset (below) or a JSON file; flags override it")
       .value("NAME|FILE");
-  options.flag("--list-presets", arguments->list_presets, "show the built-in presets and end");
+  options
+      .option("--report", arguments->report,
+              "also write a page: tiles, cuts and sources drawn, figures, what to change")
+      .value("FILE.html");
+  add_field_options(options, bake_fields(), first_fields, arguments->fields);
+  options.group("Reading samples");
   options.flag(
       "--list-maps", arguments->list_maps,
       "show the kinds of maps, and the endings of file names that they are known by in a folder, and end");
-  for (const BakeField& field : bake_fields()) add_field_option(options, field, arguments->fields);
   options
       .option("--encoding", arguments->encoding,
               "how color samples are encoded; as their file says unless given")
@@ -143,19 +191,25 @@ Action declare_bake(Options& options) {
       .option("--channels", arguments->channels,
               "channels of a color sample by their names in the file, in this order")
       .value("R,G,B");
-  options.option("--max-texels", arguments->max_texels, "samples of more are refused before memory is taken")
+  options
+      .option("--max-texels", arguments->max_texels,
+              fmt::format("samples of more are refused before memory is taken (default {})",
+                          arguments->max_texels))
       .check(whole_number(1, std::int64_t{1} << 40))
       .value("N");
+  options.group("General");
+  add_printed_format(options, arguments->printed);
   options.option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
       .value("FILE");
-  options
-      .option("--report-format", arguments->report_format, "of the summary or the list of presets on stdout")
-      .one_of("text|json");
-  options
-      .option("--report", arguments->report,
-              "also write a page: tiles, cuts and sources drawn, figures, what to change")
-      .value("FILE.html");
+  options.flag("--list-presets", arguments->list_presets, "show the built-in presets in full and end");
   add_jobs_option(options, arguments->jobs);
+  options.section("Presets", preset_lines());
+  options.section(
+      "Roles of maps",
+      fmt::format(
+          "  {} and data\n  NAME:ROLE=FILE gives a map a name of its own: --map dirt:mask=rock_dirt.png\n",
+          listed_kinds()));
+  options.explain_extra([arguments](const std::string& extra) { return explained_extra(*arguments, extra); });
   return [arguments](Console& console) { return run_bake(*arguments, console); };
 }
 
@@ -167,7 +221,7 @@ Verb bake_verb() {
           "  tilepack bake rock.png -o rock.pack --map normal=rock_normal.png --preset terrain --seed 7\n"
           "  tilepack bake gravel.png -o gravel.pack --report gravel.html\n"
           "  tilepack bake materials/rock -o rock.pack\n",
-          declare_bake, "; further maps of the material go by --map ROLE=FILE"};
+          declare_bake};
 }
 
 } // namespace tilepack::cli

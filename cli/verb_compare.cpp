@@ -78,7 +78,7 @@ Action declare_compare(Options& options) {
   auto arguments = std::make_shared<CompareArguments>();
   options.option("A", arguments->a, "image, or pack (folder or pack.json)").required();
   options.option("B", arguments->b, "of the same kind").required();
-  options.option("--format", arguments->format, "of the report on stdout").one_of("text|json");
+  options.option("--format", arguments->format, "of the report on stdout (default text)").one_of("text|json");
   options
       .option("--max-difference", arguments->limits.max_difference,
               "alike if no value differs by more: 1/255 for integer images, plain for float")
@@ -92,7 +92,9 @@ Action declare_compare(Options& options) {
       .value("S");
   options.option("--picture", arguments->picture, "write the difference, magnified, as a PNG")
       .value("FILE.png");
-  options.option("--gain", arguments->gain, "how much the picture magnifies, 0.001 to 1000; 8 unless given")
+  options
+      .option("--gain", arguments->gain,
+              "how much the picture magnifies differences, 0.001 to 1000 (default 8)")
       .check(number(0.001, 1000))
       .value("N");
   add_reading_options(options, arguments->reading);

@@ -101,7 +101,8 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
 Action declare_inspect(Options& options) {
   auto arguments = std::make_shared<InspectArguments>();
   options.option("PACK", arguments->pack, "folder or pack.json").required();
-  options.option("--format", arguments->format, "of the summary on stdout").one_of("text|json");
+  options.option("--format", arguments->format, "of the summary on stdout (default text)")
+      .one_of("text|json");
   options.option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
       .value("FILE.png|.svg");
   options.option("--index-map", arguments->index_map, "write the tile ids of an index mapping, row by row")
@@ -111,17 +112,18 @@ Action declare_inspect(Options& options) {
   options
       .option("--preview", arguments->preview, "draw a piece of the virtual texture with its colors and ids")
       .value("FILE.png|.svg");
-  options.option("--tiles", arguments->tiles, "tiles a side of the preview, 1 to 64; 8 unless given")
+  options.option("--tiles", arguments->tiles, "tiles a side of the preview, 1 to 64 (default 8)")
       .check(whole_number(1, 64))
       .value("N");
-  options.option("--map", arguments->map, "the map drawn and measured; the first unless given").value("NAME");
+  options.option("--map", arguments->map, "name of the map drawn and measured (default: the first)")
+      .value("NAME");
   options
-      .option("--level", arguments->level, "the level drawn; the finest that fits 4096 pixels unless given")
+      .option("--level", arguments->level,
+              "the level drawn, 0 the finest (default: the finest that fits 4096 pixels)")
       .check(whole_number(0, 30))
       .value("L");
   options
-      .option("--worst", arguments->worst,
-              "how many of the worst borders are listed, 0 to 1000; 3 unless given")
+      .option("--worst", arguments->worst, "how many of the worst borders are listed, 0 to 1000 (default 3)")
       .check(whole_number(0, 1000))
       .value("N");
   options.flag("--bare", arguments->bare, "draw without colors and ids");

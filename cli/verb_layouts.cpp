@@ -113,15 +113,15 @@ Action declare_layouts(Options& options) {
       .value("N");
   options
       .option("--up-to", arguments->up_to,
-              fmt::format("largest tile count of the table, 1 to {}", limits::most_tiles))
+              fmt::format("largest tile count of the table, 1 to {} (default 200)", limits::most_tiles))
       .check(whole_number(1, limits::most_tiles))
       .value("N");
   options
       .option("--tile-size", arguments->tile_side,
-              fmt::format("side of a tile in texels, 1 to {}", limits::largest_tile_side))
+              fmt::format("side of a tile in texels, 1 to {} (default 128)", limits::largest_tile_side))
       .check(whole_number(1, limits::largest_tile_side))
       .value("N");
-  options.option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side")
+  options.option("--gutter", arguments->gutter, "texels round each tile, 0 to the tile's side (default 0)")
       .check(whole_number(0, limits::largest_gutter, ", and at most the tile's side"))
       .value("N");
   options
@@ -129,7 +129,12 @@ Action declare_layouts(Options& options) {
               "with --tiles: measure what turning loses on windows of this image")
       .value("IMAGE");
   options.flag("--power-of-two", arguments->power_of_two, "sides of the texture are powers of two");
-  options.option("--format", arguments->format, "of the table").one_of("text|json");
+  options.option("--format", arguments->format, "of the table (default text)").one_of("text|json");
+  options.explain_extra([](const std::string& extra) {
+    return whole_number(1, max_rotated_tiles - 1)(extra).empty()
+               ? fmt::format("; for advice on so many tiles: --tiles {}", extra)
+               : std::string();
+  });
   add_reading_options(options, arguments->reading);
   return [arguments](Console& console) { return run_layouts(*arguments, console); };
 }

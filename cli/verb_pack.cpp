@@ -31,7 +31,7 @@ struct PackArguments {
   std::string colors;
   std::string name = "color";
   std::string role = "color";
-  std::string report_format = "text";
+  PrintedFormat printed;
   double tolerance = 0;
   ReadingArguments reading;
   int jobs = 0;
@@ -66,7 +66,8 @@ void check_agreement(const TileSet& set, double tolerance, Console& console) {
                   differences.size(), differences.front().difference));
 }
 
-int run_pack(const PackArguments& arguments, Console& console) {
+int run_pack(PackArguments& arguments, Console& console) {
+  const std::string now = arguments.printed.settle(arguments.fields);
   const JobLimit limit(arguments.jobs);
   check_pack_folder_for(arguments.folder, arguments.tiles);
   const TileColors tiles =
@@ -89,33 +90,42 @@ int run_pack(const PackArguments& arguments, Console& console) {
   pack.generator.options = recorded_options(options, packing_fields());
   write_pack(pack, arguments.folder, progress);
   const PackDescription made = described(pack);
-  console.print(arguments.report_format == "json" ? made_json(made, arguments.folder)
-                                                  : bake_report_text(made, arguments.folder));
+  if (arguments.printed.json())
+    console.print(made_json(made, arguments.folder));
+  else if (!console.quiet || arguments.printed.asked_for())
+    console.print(bake_report_text(made, arguments.folder));
+  if (!now.empty()) console.note(now);
   return 0;
 }
 
 Action declare_pack(Options& options) {
   auto arguments = std::make_shared<PackArguments>();
   options.option("TILE", arguments->tiles, "images of the tiles, all of one size").required();
-  options.option("-o,--output", arguments->folder, "folder of the pack").value("DIR").required();
+  options.group(most_used);
+  options.option("-o,--output", arguments->folder, "folder of the pack; made if it is not there")
+      .value("DIR")
+      .required();
   options
       .option("--colors", arguments->colors,
               "JSON list of the tiles' colors, one entry a TILE: {\"north\": 0, \"east\": 0, \"south\": 0, "
               "\"west\": 0} or {\"nw\": 0, \"ne\": 0, \"sw\": 0, \"se\": 0}")
       .value("FILE")
       .required();
-  options.option("--name", arguments->name, "of the map in the pack").value("NAME");
-  options.option("--role", arguments->role, "what the values mean")
+  options.option("--name", arguments->name, "name of the map in the pack (default color)").value("NAME");
+  options.option("--role", arguments->role, "what the values mean (default color)")
       .one_of(alternatives_of<Role>())
       .value("ROLE");
   options
       .option("--tolerance", arguments->tolerance,
-              "by how much borders of one color may differ, in parts of full scale, 0 to 1")
+              "by how much borders of one color may differ, in parts of full scale, 0 to 1 (default 0)")
       .check(number(0, 1))
       .value("X");
-  for (const BakeField& field : packing_fields()) add_field_option(options, field, arguments->fields);
-  options.option("--report-format", arguments->report_format, "of the summary on stdout").one_of("text|json");
+  const std::vector<BakeField> fields = packing_fields();
+  add_field_options(options, fields, {}, arguments->fields);
+  options.group("Reading samples");
   add_reading_options(options, arguments->reading);
+  options.group("General");
+  add_printed_format(options, arguments->printed);
   add_jobs_option(options, arguments->jobs);
   return [arguments](Console& console) { return run_pack(*arguments, console); };
 }

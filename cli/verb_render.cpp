@@ -35,7 +35,7 @@ struct RenderArguments {
   std::string output;
   std::string map;
   std::optional<std::string> rect;
-  std::string filter = "trilinear";
+  std::string filter; ///< empty: trilinear for windows, anisotropic for camera views
   std::string border = "wrap";
   std::string encoding;
   int level = 0;
@@ -48,7 +48,7 @@ struct RenderArguments {
 constexpr const char* elliptical = "elliptical"; // no Filter: it takes a footprint in place of a level
 
 Filter filter_of(const std::string& name) {
-  if (name == elliptical) return Filter::trilinear;
+  if (name.empty() || name == elliptical) return Filter::trilinear;
   if (const auto filter = enum_named<Filter>(name)) return *filter;
   std::vector<std::string> known = names_of<Filter>();
   known.emplace_back(elliptical);
@@ -112,10 +112,13 @@ int run_render(const RenderArguments& arguments, Console& console) {
   if (arguments.view.camera) {
     const Pack pack = read_pack(arguments.pack);
     const int map = map_called(pack, arguments.map);
-    const RenderTarget target =
-        target_for(arguments.output, pack.maps[static_cast<std::size_t>(map)], arguments.encoding);
-    const PackTexture texture(pack, map, view_filter_of(arguments.filter), border);
-    return render_camera(arguments.view, texture, target, arguments.output, console);
+    const PackedMap& shown = pack.maps[static_cast<std::size_t>(map)];
+    const RenderTarget target = target_for(arguments.output, shown, arguments.encoding);
+    const ViewFilter filter =
+        arguments.filter.empty() ? ViewFilter::anisotropic : view_filter_of(arguments.filter);
+    const PackTexture texture(pack, map, filter, border);
+    return render_camera(arguments.view, texture, shown.role == Role::color, target, arguments.output,
+                         console);
   }
   const Filter filter = filter_of(arguments.filter);
   std::optional<VirtualRect> rect;
@@ -156,7 +159,9 @@ Action declare_render(Options& options) {
   options.option("PACK", a->pack, "folder of a pack, or its pack.json").required();
   options
       .option("-o,--output", a->output,
-              "picture to write, .png or .exr; the depth of the map is kept if the format has it")
+              "picture to write, .png or .exr; its folder is made if it is not there, and the depth of the "
+              "map is kept "
+              "if the format has it")
       .required()
       .value("FILE");
   options.option("--map", a->map, "name of the map (default: the first)").value("NAME");
@@ -171,8 +176,10 @@ Action declare_render(Options& options) {
   options
       .option(
           "--filter", a->filter,
-          "nearest, bilinear, trilinear, which reads the level that fits the scale (default), or elliptical, "
-          "the mean over what a pixel covers; for camera views trilinear, anisotropic or elliptical")
+          "how texels are filtered: nearest, bilinear, trilinear (default), which reads the level that fits "
+          "the "
+          "scale, or elliptical, the mean over what a pixel covers; for camera views trilinear, anisotropic "
+          "(default) or elliptical")
       .value("NAME");
   options
       .option("--border", a->border,
@@ -192,8 +199,10 @@ Action declare_render(Options& options) {
       .check(number(0, 4096))
       .value("W");
   options
-      .option("--encoding", a->encoding,
-              "srgb or linear (default: that of the map; in EXR linear, in PNG of float color srgb)")
+      .option(
+          "--encoding", a->encoding,
+          "encoding of the picture: srgb or linear (default: that of the map; in EXR linear, in PNG of float "
+          "color srgb)")
       .value("NAME");
   add_jobs_option(options, a->jobs);
   add_camera_options(options, a->view);

@@ -58,13 +58,18 @@ int run_validate(const ValidateArguments& arguments, Console& console) {
 
 Action declare_validate(Options& options) {
   auto arguments = std::make_shared<ValidateArguments>();
-  options.option("PACK", arguments->pack, "folder or pack.json");
-  options.option("--format", arguments->format, "of the report on stdout").one_of("text|json|csv");
+  options.option("PACK", arguments->pack, "folder or pack.json").needed();
+  options
+      .option("--format", arguments->format,
+              "of the report on stdout; csv: the figures of --against-reference (default text)")
+      .one_of("text|json|csv");
   options.flag(
       "--against-reference", arguments->against_reference,
       "also hold bilinear lookups against the virtual texture's true mips, level by level: inside tiles, "
       "across edges, at corners");
-  options.option("--lookups", arguments->lookups, "places a zone and level, 16 to 1000000 (default 4096)")
+  options
+      .option("--lookups", arguments->lookups,
+              "with --against-reference: places looked at a zone and level, 16 to 1000000 (default 4096)")
       .check(whole_number(16, 1000000))
       .value("N");
   options.flag("--list-rules", arguments->list_rules, "show every rule with its number and end");

@@ -245,8 +245,10 @@ TEST_CASE("an image that cannot be written leaves nothing and spares the older f
     return error_of(kind, [&] { write_image(file, image, depth, Encoding::srgb); });
   };
 
-  CHECK_THAT(writing_error(ErrorKind::cannot_write, folder.path / "none" / "a.png", Depth::u8),
-             Contains("does not exist"));
+  std::ofstream(folder.path / "file") << "no folder";
+  CHECK_THAT(writing_error(ErrorKind::cannot_write, folder.path / "file" / "none" / "a.png", Depth::u8),
+             Contains("cannot be created"));
+  fs::remove(folder.path / "file");
   CHECK_THAT(writing_error(ErrorKind::usage, folder.path / "a.png", Depth::f16),
              Contains("f16") && Contains(".exr"));
   CHECK_THAT(writing_error(ErrorKind::usage, folder.path / "a.jpg", Depth::u8), Contains(".png"));

@@ -2,8 +2,11 @@
 
 #include "tilepack/bake/bake_fields.h"
 #include "tilepack/bake/material_values.h"
+#include "tilepack/bake/tile_size_choice.h"
 #include "tilepack/error/error.h"
+#include "tilepack/exemplar/feature_image.h"
 #include "tilepack/exemplar/flatten.h"
+#include "tilepack/exemplar/object_scale.h"
 #include "tilepack/exemplar/period.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/stored_format_for.h"
@@ -151,21 +154,24 @@ Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const 
 BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, const Progress& progress) {
   check_samples(samples, options);
   SynthOptions synth = options.synth;
-  std::optional<Periodicity> periods;
-  if (options.fit_tile_size) {
-    periods = detect_periods(samples);
-    const Size fitting = fitting_tile_size(*periods, synth.tile_size, samples[0].image.size()).size;
-    synth.tile_size = {std::max(limits::smallest_tile_side_made, fitting.width),
-                       std::max(limits::smallest_tile_side_made, fitting.height)};
-  }
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);
+  std::optional<Periodicity> periods;
+  if (options.fit_tile_size) {
+    const Size size = samples[0].image.size();
+    const int side = tile_side_for(size, object_scale(feature_image(samples)), tile_count(wanted));
+    periods = detect_periods(samples);
+    // Only squares can be turned.
+    synth.tile_size =
+        options.layout == LayoutKind::rotated ? Size{side, side} : tile_size_in_step(*periods, side, size);
+  }
   const PackingPlan plan = planned_packing(options, wanted, synth.tile_size); // before the long stage
   check_fit(samples[0], synth.tile_size);
   check_flatten(options.flatten);
   BakedPack result;
   result.synth = synth;
   result.flatten = options.flatten;
+  result.size_chosen = options.fit_tile_size;
   if (options.flatten > 0) {
     report(progress, "flattening", 0.0);
     result.flattened = flattened_maps(samples, options, synth.tile_size);

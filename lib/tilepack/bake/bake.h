@@ -22,11 +22,12 @@ Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const 
 /// A pack and how it came about, for reports.
 struct BakedPack {
   Pack pack;
-  SampleAnalysis sample; ///< as used: after flattening
-  SourceMap sources;     ///< where the pack's tiles come from, by the pack's ids
-  SetReport report;      ///< of these sources
-  SynthOptions synth;    ///< as used: tile_size is the fitted one
-  int flatten = 0;       ///< as in the options
+  SampleAnalysis sample;    ///< as used: after flattening
+  SourceMap sources;        ///< where the pack's tiles come from, by the pack's ids
+  SetReport report;         ///< of these sources
+  SynthOptions synth;       ///< as used: tile_size is the fitted one
+  int flatten = 0;          ///< as in the options
+  bool size_chosen = false; ///< synth.tile_size was found to suit the sample
 
   /// The sample maps after flattening, which all above is about; none if flatten is 0.
   std::vector<SampleMap> flattened;

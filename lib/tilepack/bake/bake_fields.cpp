@@ -217,8 +217,10 @@ std::vector<BakeField> make_fields() {
   flatten.get = get_flatten;
   return {
       {"tile-size", tiles, read_by(Type::extent, "N|WxH|auto", set_tile_size, get_tile_size),
-       fmt::format("side of a tile in texels, {} to {}; auto: whole periods of the sample near 128",
-                   limits::smallest_tile_side_made, limits::largest_tile_side)},
+       fmt::format(
+           "side of a tile in texels, {} to {}; auto: about a quarter of the sample's side, so that the "
+           "tiles show most of it, in whole periods where it repeats",
+           limits::smallest_tile_side_made, limits::largest_tile_side)},
       {"flatten", tiles, flatten,
        "percent of slow shading (uneven light, a tone that drifts) taken out of color and height, 0 to 100"},
       {"coloring", tiles, with_consequence(choice(at(&O::synth, &SynthOptions::coloring)), follow_coloring),
@@ -269,9 +271,10 @@ std::vector<BakeField> make_fields() {
        "the hash (corner colors; then the default), or a stored map"},
       {"virtual-size", packing, read_by(Type::extent, "N|WxH", set_virtual_size, get_virtual_size),
        "size of the virtual texture in tiles, 1 to 2^31"},
-      {"format", packing, choice(at(&O::format)),
+      {"image-format", packing, choice(at(&O::format)),
        "image files of the pack; as the depth asks for unless given"},
-      {"depth", packing, choice(at(&O::depth)), "of the stored channels; as in the sample unless given"},
+      {"depth", packing, choice(at(&O::depth)),
+       "depth of the stored channels; as in the sample unless given"},
   };
 }
 
@@ -307,9 +310,14 @@ std::vector<std::string> bake_field_names() {
   return names;
 }
 
+std::string_view field_name_now(std::string_view name) {
+  return name == "format" ? std::string_view("image-format") : name;
+}
+
 const BakeSetting* setting_of(std::span<const BakeSetting> settings, std::string_view field) {
-  const auto found = std::find_if(settings.rbegin(), settings.rend(),
-                                  [&](const BakeSetting& setting) { return setting.field == field; });
+  const auto found = std::find_if(settings.rbegin(), settings.rend(), [&](const BakeSetting& setting) {
+    return field_name_now(setting.field) == field_name_now(field);
+  });
   return found == settings.rend() ? nullptr : &*found;
 }
 
@@ -323,6 +331,7 @@ BakeOptions bake_options(std::span<const BakeSetting> settings) {
   if (!setting_of(settings, "coloring"))
     options.synth.coloring = asks_for_edge_colors(settings) ? Coloring::edge : Coloring::corner;
   follow_coloring(options);
+  options.fit_tile_size = true; // unless a size is set
   for (const BakeField& field : bake_fields())
     if (const BakeSetting* setting = setting_of(settings, field.name)) {
       try {

@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,10 @@ std::vector<BakeField> packing_fields();
 /// The names of all fields, for suggestions.
 std::vector<std::string> bake_field_names();
 
+/// The name that a field has now: "image-format" for "format", as it was called; any other name is its own.
+/// Settings under either name are one field's.
+std::string_view field_name_now(std::string_view name);
+
 /// A value that someone gave for a field.
 struct BakeSetting {
   std::string field; ///< a name from bake_fields()
@@ -56,7 +61,8 @@ Error blamed(const Error& error, std::span<const BakeSetting> settings);
 /// of corners unless told otherwise or something is asked for that only edge-colored tiles have (layout
 /// tile-index, a corner pack, a sequential set, quilted insides, HxV or more than 4 colors). Defaults follow
 /// the coloring: corner-colored packs have 2 colors and the de Bruijn layout, edge-colored ones 2 x 2 and the
-/// tile-index layout. Throws Error, blamed on the setting.
+/// tile-index layout. Tiles have the size that suits the sample unless one is set. Throws Error, blamed on the
+/// setting.
 BakeOptions bake_options(std::span<const BakeSetting> settings);
 
 /// Every set one of `fields` as (name, value), as it would stand on the command line; the seed is left out.

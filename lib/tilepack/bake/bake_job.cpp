@@ -117,6 +117,30 @@ ReadOptions reading_for(const BakeJob& job) {
   return reading;
 }
 
+// A set grows with the fourth power of its colors, and so does what it takes.
+void note_many_tiles(const BakeOptions& options, const JobWatch& watch) {
+  const ColorCounts& k = options.synth.colors;
+  const bool corner = options.synth.coloring == Coloring::corner;
+  const int tiles = corner ? k.corner * k.corner * k.corner * k.corner
+                           : k.horizontal * k.horizontal * k.vertical * k.vertical;
+  constexpr int usual = 16, many = 256;
+  if (tiles < many) return;
+  watch.note(
+      fmt::format("{} tiles are to be made, which takes some {} times as long as the {} of {}; {} makes 81",
+                  tiles, tiles / usual, usual, field("colors", "2"), field("colors", "3")));
+}
+
+// Whoever asks for whole repeats wants to know that there were none.
+void note_no_repeat(const BakeJob& job, const BakedJob& baked, const JobWatch& watch) {
+  const std::vector<BakeSetting> settings = settings_of(job);
+  const BakeSetting* size = setting_of(settings, "tile-size");
+  const Periodicity& periods = baked.made.sample.periods;
+  if (size == nullptr || size->value != "auto" || periods.x.length > 0 || periods.y.length > 0) return;
+  const Size tile = baked.made.synth.tile_size;
+  watch.note(fmt::format("no repeat was found in the sample: tiles of {} x {} texels follow its size alone",
+                         tile.width, tile.height));
+}
+
 BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWatch& watch) {
   const std::vector<MaterialFile> maps = maps_of(job);
   const std::vector<std::string> inputs = inputs_of(job, maps);
@@ -138,8 +162,10 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
       watch.note && !doubt.empty())
     watch.note(doubt);
+  if (watch.note) note_many_tiles(options, watch);
   baked.read_seconds = watch_of_parts.lap();
   baked.made = tilepack::baked(baked.samples, options, progress);
+  if (watch.note) note_no_repeat(job, baked, watch);
   baked.bake_seconds = watch_of_parts.lap();
   baked.description = described(baked.made.pack);
   write_job(job, inputs, baked, watch, progress);

@@ -20,7 +20,8 @@ inline constexpr auto enum_names<SetKind> =
 
 /// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
 /// keys of a preset: see bake/bake_fields.h, which holds their names, ranges and help.
-/// The defaults are those of `tilepack bake`: 2 corner colors in a de Bruijn layout. Edge colors take three
+/// The defaults are those of `tilepack bake`, 2 corner colors in a de Bruijn layout, but for the size of tiles,
+/// which there follows the sample (bake_options of no setting sets fit_tile_size). Edge colors take three
 /// fields together, synth.coloring, synth.colors and layout (tile_index for a complete set).
 struct BakeOptions : PackingOptions {
   BakeOptions() {
@@ -31,7 +32,8 @@ struct BakeOptions : PackingOptions {
 
   MaterialOptions material; ///< for prepare_maps(), before bake()
   SynthOptions synth;
-  bool fit_tile_size = false; ///< tile sides become whole periods of the sample, near synth.tile_size
+  bool fit_tile_size =
+      false; ///< tile sides follow the sample (bake/tile_size_choice.h) in place of synth.tile_size
   SetKind set = SetKind::complete;
   int flatten = 0; ///< percent of slow shading taken out of the sample, 0..100 (exemplar/flatten.h)
 };

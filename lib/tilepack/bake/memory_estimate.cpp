@@ -1,5 +1,6 @@
 #include "tilepack/bake/memory_estimate.h"
 
+#include "tilepack/bake/tile_size_choice.h"
 #include "tilepack/exemplar/feature_image.h"
 
 #include <algorithm>
@@ -19,9 +20,6 @@ constexpr double all_levels = 4.0 / 3; // of a pyramid, its finest being 1
 
 // A rotated texture wastes a share, and is made once more by each filter that is compared.
 constexpr double rotated_share = 1.6;
-
-// Whole periods are found near the size asked for; the tile may grow to this many times its texels.
-constexpr double fitted_share = 1.5;
 
 double squared(double x) {
   return x * x;
@@ -59,7 +57,12 @@ bool stored_as_floats(const MapShape& map, const BakeOptions& o) {
 
 } // namespace
 
-std::int64_t memory_estimate(std::span<const MapShape> maps, const BakeOptions& options, int threads) {
+std::int64_t memory_estimate(std::span<const MapShape> maps, const BakeOptions& asked, int threads) {
+  BakeOptions options = asked;
+  if (options.fit_tile_size && !maps.empty()) {
+    const int side = largest_tile_side_for(maps.front().size, static_cast<int>(made_tiles(options)));
+    options.synth.tile_size = {side, side};
+  }
   double channels = 0;
   double float_channels = 0;
   for (const MapShape& map : maps) {
@@ -69,8 +72,8 @@ std::int64_t memory_estimate(std::span<const MapShape> maps, const BakeOptions& 
   const double features = std::min<double>(channels, max_feature_channels);
   const Size size = maps.empty() ? Size{} : maps.front().size;
   const double sample_texels = static_cast<double>(size.width) * size.height;
-  const double tile_texels = static_cast<double>(options.synth.tile_size.width) *
-                             options.synth.tile_size.height * (options.fit_tile_size ? fitted_share : 1);
+  const double tile_texels =
+      static_cast<double>(options.synth.tile_size.width) * options.synth.tile_size.height;
 
   const double of_sample =
       channels * a_float * (options.flatten > 0 ? 2 : 1) + features * all_levels + about_a_sample_texel;

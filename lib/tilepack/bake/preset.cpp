@@ -32,13 +32,21 @@ std::string text_value(const JsonCursor& value, BakeFieldType type) {
 Preset parsed_preset(std::string_view text, const std::string& name, const std::string& file) {
   const JsonCursor root = JsonCursor::parse(text, file);
   std::vector<std::string> known = bake_field_names();
-  known.insert(known.end(), {"purpose", "cost"});
+  known.insert(known.end(), {"purpose", "cost", "format"}); // the last: an old name
   root.only(known);
-  Preset preset{name, root.member("purpose").text(1000), root.member("cost").text(1000), {}};
-  for (const BakeField& field : bake_fields())
-    if (const auto value = root.find(field.name))
+  const auto told = [&](const char* key) {
+    const auto words = root.find(key);
+    return words ? words->text(1000) : std::string();
+  };
+  Preset preset{name, told("purpose"), told("cost"), {}};
+  const auto take = [&](const std::string& key, const BakeField& field) {
+    if (const auto value = root.find(key))
       preset.settings.push_back({field.name, text_value(*value, field.type),
-                                 fmt::format("{}: \"{}\"", file, field.name), ErrorKind::invalid_content});
+                                 fmt::format("{}: \"{}\"", file, key), ErrorKind::invalid_content});
+  };
+  for (const BakeField& field : bake_fields()) take(field.name, field);
+  for (const BakeField& field : bake_fields())
+    if (field.name == field_name_now("format")) take("format", field);
   bake_options(preset.settings); // throws if a value is out of range
   return preset;
 }

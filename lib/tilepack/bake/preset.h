@@ -13,7 +13,8 @@ namespace tilepack {
 ///
 ///   { "purpose": "what it is for", "cost": "what it takes",  "tile-size": 256, "colors": "2x3", … }
 ///
-/// Every other key is the name of a bake field; its value is written as BakeFieldType says.
+/// Every other key is the name of a bake field; its value is written as BakeFieldType says. Purpose and cost
+/// may be left out: a file of someone's own needs only what it sets.
 struct Preset {
   std::string name;
   std::string purpose;

@@ -28,17 +28,25 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 } // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> known) {
+  const auto bare = [](std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of('-'), text.size()));
+  };
+  const std::string_view asked = bare(name);
   std::string best;
+  std::string begun; // with what was asked for
   std::size_t best_distance = ~std::size_t{0};
   for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(name, candidate);
-    const std::size_t limit = (std::max(name.size(), candidate.size()) + 2) / 3;
+    const std::string_view other = bare(candidate);
+    if (asked.size() >= 2 && other.starts_with(asked) && (begun.empty() || candidate.size() < begun.size()))
+      begun = candidate;
+    const std::size_t distance = edit_distance(asked, other);
+    const std::size_t limit = (std::max(asked.size(), other.size()) + 2) / 4;
     if (distance <= limit && distance < best_distance) {
       best = candidate;
       best_distance = distance;
     }
   }
-  return best;
+  return begun.empty() ? best : begun;
 }
 
 } // namespace tilepack

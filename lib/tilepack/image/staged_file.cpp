@@ -14,7 +14,8 @@
 
 namespace tilepack {
 
-StagedFile::StagedFile(std::filesystem::path final_name) : target(std::move(final_name)) {
+StagedFile::StagedFile(std::filesystem::path final_name)
+    : target(std::move(final_name)), folders(target.parent_path()) {
   const auto fails = [&](const std::string& what) {
     throw Error(ErrorKind::cannot_write, target.string(), what);
   };
@@ -29,7 +30,7 @@ StagedFile::StagedFile(std::filesystem::path final_name) : target(std::move(fina
       const int reason = errno;
       temporary.clear();
       fails(reason == ENOENT
-                ? fmt::format("the folder {} does not exist; create it first", folder.string())
+                ? fmt::format("the folder {} does not exist and can't be made", folder.string())
                 : fmt::format("cannot be created in {}: {}", folder.string(), std::strerror(reason)));
     }
   }
@@ -73,6 +74,7 @@ void StagedFile::commit() {
     throw Error(ErrorKind::cannot_write, target.string(),
                 fmt::format("the finished file cannot get this name: {}", error.message()));
   temporary.clear();
+  folders.keep();
 }
 
 } // namespace tilepack

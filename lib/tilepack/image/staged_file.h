@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tilepack/image/made_folders.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -13,7 +15,8 @@ namespace tilepack {
 /// Failures are remembered, so that writing may go through code that drops them; commit() throws the first.
 class StagedFile {
 public:
-  /// Throws Error (cannot_write) if the folder is missing or read-only, or `target` is a folder.
+  /// Folders missing on the way are made, and go again if nothing is committed. Throws Error (cannot_write) if
+  /// that can't be, the folder is read-only, or `target` is a folder.
   explicit StagedFile(std::filesystem::path target);
   ~StagedFile();
   StagedFile(const StagedFile&) = delete;
@@ -30,6 +33,7 @@ public:
 
 private:
   std::filesystem::path target;
+  MadeFolders folders;
   std::filesystem::path temporary; ///< empty once committed
   std::uint64_t length = 0;
   std::string failure;

@@ -5,6 +5,7 @@
 #include "tilepack/report/bake_pictures.h"
 #include "tilepack/report/html_page.h"
 #include "tilepack/report/pack_picture.h"
+#include "tilepack/report/size_choice.h"
 
 #include <fmt/format.h>
 
@@ -175,6 +176,9 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
       made.flatten > 0 ? fmt::format(", flattened by {} %", made.flatten) : "", facts.tiles,
       facts.tiles == 1 ? "" : "s", tile.width, tile.height);
   page += verdict_box(bake_verdict(facts));
+  if (facts.size_chosen)
+    page += fmt::format("<p>Tile size: {}</p>\n",
+                        escaped(spelled(size_choice_text(facts), FieldSpelling::option)));
 
   page += "<h2>The texture and its tiles</h2>\n<div class=\"row\">\n";
   PackPictureOptions bare;

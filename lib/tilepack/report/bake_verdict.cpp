@@ -238,6 +238,10 @@ WayOut way_to_variety(const BakeFacts& facts) {
     return {fmt::format(" {} gives every tile an inside of its own.", shown(cure)), cure};
   }
   const double held = tiles_in_sample(facts);
+  if (held > limit::tiles_held_far * facts.tiles && !facts.size_chosen) {
+    const Cure cure{"tile-size", "auto"};
+    return {fmt::format(" {} shows more, in tiles as large as the sample has room for.", shown(cure)), cure};
+  }
   if (held < facts.tiles)
     return {held < limit::tiles_held_fair ? "" : " A larger sample or smaller tiles show more.",
             std::nullopt};
@@ -332,7 +336,9 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
                   made.flatten,
                   0.0,
                   samples[0].image.size(),
-                  tile_count(made.pack.tiles)};
+                  tile_count(made.pack.tiles),
+                  {},
+                  made.size_chosen};
   for (const SampleMap& map : samples)
     if (facts.fireflies.empty()) facts.fireflies = listed(fireflies(map));
   if (made.flatten < 100 && has_shading(facts.nature)) {

@@ -24,6 +24,7 @@ struct BakeFacts {
   Size sample;
   int tiles = 0;
   std::string fireflies = {}; ///< how many of the sample and where, as listed() has it; empty: none
+  bool size_chosen = false; ///< synth.tile_size was found to suit the sample
 };
 
 /// `samples`: those that baked() got.

@@ -3,6 +3,7 @@
 #include "tilepack/measure/pack_memory.h"
 #include "tilepack/pack/map_meaning.h"
 #include "tilepack/report/pack_summary.h"
+#include "tilepack/report/size_choice.h"
 
 #include <algorithm>
 
@@ -133,6 +134,21 @@ JsonValue verdict_json(const BakeFacts& facts) {
   return json;
 }
 
+JsonValue options_json(const std::vector<Cure>& options) {
+  JsonValue json = JsonValue::object();
+  for (const Cure& option : options) json[option.field] = option.value;
+  return json;
+}
+
+JsonValue size_choice_json(const BakeFacts& facts) {
+  const SizeChoice choice = size_choice(facts);
+  JsonValue json;
+  json["times_sample"] = choice.times_sample;
+  json["smaller"] = options_json(choice.smaller);
+  json["richer"] = options_json(choice.richer);
+  return json;
+}
+
 } // namespace
 
 std::string summary_json(const PackSummary& summary) {
@@ -197,6 +213,7 @@ std::string made_json(const PackDescription& made, const std::string& folder, co
   if (facts) {
     json["synthesis"] = synthesis_json(*facts);
     json["verdict"] = verdict_json(*facts);
+    if (facts->size_chosen) json["size_choice"] = size_choice_json(*facts);
   }
   return json_text(json, JsonLetters::ascii);
 }

@@ -31,6 +31,8 @@ constexpr double period_misfit_poor = 0.1;
 
 // ---- Amount of sample: its area in tiles.
 constexpr double tiles_held_fair = 6.0; ///< below: fair. So many give every tile an inside of its own.
+/// Times the tiles of the set: above, larger tiles show more of the sample for the memory than further colors.
+constexpr double tiles_held_far = 2.5;
 constexpr double tiles_held_poor = 2.5; ///< below: poor (judgement)
 
 // ---- Tones that differ from tile to tile. Shading is 0.019 to 0.063 in the photos whose tiles can be told by

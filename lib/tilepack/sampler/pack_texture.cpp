@@ -44,8 +44,12 @@ Probes probes_for(const Footprint& footprint, Size tile, ViewFilter filter) {
     probes.count = static_cast<int>(std::clamp(std::ceil(ratio), 1.0, static_cast<double>(most_probes)));
     probes.u_axis = covered.x * covered.major / tile.width;
     probes.v_axis = covered.y * covered.major / tile.height;
+    // Not major / count, which jumps where one more probe is taken: rings that swim as the camera moves.
+    const double finest = std::max(covered.minor, covered.major / most_probes);
+    probes.level = std::max(0.0, exact_log2(finest));
+    return probes;
   }
-  probes.level = std::max(0.0, exact_log2(covered.major / probes.count));
+  probes.level = std::max(0.0, exact_log2(covered.major));
   return probes;
 }
 

@@ -9,6 +9,9 @@ namespace tilepack {
 struct ViewOptions {
   ViewStepping stepping;
   std::vector<float> background; ///< values as stored, one a channel; empty: 0
+  /// Where nothing is, a clear sky in place of the background: pale at the horizon and below, bluer the higher
+  /// a pixel looks (+y is up). For textures of color; of 1 or 2 channels it is grey, with alpha opaque.
+  bool sky = false;
 };
 
 /// A perspective view of a scene, all of whose surfaces show one texture, in bands of rows, any rows in any order: the pixels
@@ -31,7 +34,10 @@ public:
   Image rows(int first, int count) const;
 
 private:
+  void paint_sky(Image& shaded, const ViewPixels& pixels, int top) const;
+
   ViewOptions options;
+  Projection projection;
   ProjectedScene scene;
   const Texture* texture;
   RenderTarget target;

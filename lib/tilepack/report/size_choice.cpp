@@ -1,0 +1,73 @@
+#include "tilepack/report/size_choice.h"
+
+#include "tilepack/error/field.h"
+#include "tilepack/tileset/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tilepack {
+namespace {
+
+std::string shown(Size size) {
+  return size.width == size.height ? fmt::format("{}", size.width)
+                                   : fmt::format("{}x{}", size.width, size.height);
+}
+
+double texels_of(Size size) {
+  return static_cast<double>(size.width) * size.height;
+}
+
+int fourth_power(int x) {
+  return x * x * x * x;
+}
+
+std::string spelled_out(const std::vector<Cure>& options) {
+  std::string text;
+  for (const Cure& option : options) text = fmt::format("{}{}{}", text, text.empty() ? "" : " ", field(option.field, option.value));
+  return text;
+}
+
+// "2.6", and "26" where the fraction has nothing to say.
+std::string times(double factor) {
+  return factor < 10 ? fmt::format("{:.1f}", factor) : fmt::format("{:.0f}", factor);
+}
+
+} // namespace
+
+SizeChoice size_choice(const BakeFacts& facts) {
+  const SynthOptions& o = facts.synth;
+  SizeChoice choice;
+  choice.times_sample = facts.tiles * texels_of(o.tile_size) / texels_of(facts.sample);
+  const Size half{o.tile_size.width / 2, o.tile_size.height / 2};
+  if (std::min(half.width, half.height) >= 16) {
+    choice.smaller.push_back({"tile-size", shown(half)});
+    choice.smaller_shows = facts.report.figures.coverage / 4;
+  }
+  const bool corner = o.coloring == Coloring::corner;
+  const int colors = corner ? o.colors.corner : std::max(o.colors.horizontal, o.colors.vertical);
+  const bool complete = facts.tiles == (corner ? fourth_power(colors)
+                                               : o.colors.horizontal * o.colors.horizontal *
+                                                     o.colors.vertical * o.colors.vertical);
+  if (colors < (corner ? limits::most_corner_colors : limits::most_edge_colors)) {
+    choice.richer = {{"colors", fmt::format("{}", colors + 1)}, {"tile-size", shown(o.tile_size)}};
+    choice.richer_tiles = complete ? fourth_power(colors + 1) : 2 * (colors + 1) * (colors + 1);
+  }
+  return choice;
+}
+
+std::string size_choice_text(const BakeFacts& facts) {
+  const SizeChoice choice = size_choice(facts);
+  std::string text =
+      fmt::format("chosen for this sample; the tiles hold {} times its texels", times(choice.times_sample));
+  if (!choice.smaller.empty())
+    text += fmt::format(". Smaller: {}, a quarter of the memory, shows about {:.0f} % of the sample",
+                        spelled_out(choice.smaller), choice.smaller_shows * 100);
+  if (!choice.richer.empty())
+    text += fmt::format(". Richer: {}, {} tiles, {} times the memory", spelled_out(choice.richer),
+                        choice.richer_tiles, times(static_cast<double>(choice.richer_tiles) / facts.tiles));
+  return text + ".";
+}
+
+} // namespace tilepack
