@@ -46,10 +46,6 @@ void check_choice(const BakeOptions& o) {
                 "'tile-index' needs the complete set; use rotated or array");
 }
 
-std::string label_of(const SampleMap& map) {
-  return map.file.empty() ? map.name : map.file;
-}
-
 // Averages, differences and their squares must stay finite, and so must what is stored.
 constexpr float largest_value = 1e30f;
 constexpr float largest_half = 65504.0f;
@@ -61,7 +57,7 @@ void check_values(const SampleMap& map, Depth stored) {
       std::find_if(values.begin(), values.end(), [&](float v) { return !(std::abs(v) <= largest); });
   if (bad == values.end()) return;
   const auto texel = (bad - values.begin()) / map.image.channels();
-  throw Error(ErrorKind::invalid_content, label_of(map),
+  throw Error(ErrorKind::invalid_content, map.label(),
               fmt::format("holds {} at texel ({}, {}); {} values may be {} to {}: scale the image{}", *bad,
                           texel % map.image.width(), texel / map.image.width(), name_of(stored), -largest,
                           largest,
@@ -80,7 +76,7 @@ void check_fit(const SampleMap& sample, Size tile) {
                         field("tile-size", std::to_string(side)))
           : fmt::format("no tile fits, since tiles have at least {} texels a side: take a larger sample",
                         limits::smallest_tile_side_made);
-  throw Error(ErrorKind::invalid_content, label_of(sample),
+  throw Error(ErrorKind::invalid_content, sample.label(),
               fmt::format("has {} x {} texels, too few for a tile of {} x {}; {}", size.width, size.height,
                           tile.width, tile.height, way_out));
 }
@@ -97,13 +93,13 @@ void check_samples(std::span<const SampleMap> samples, const BakeOptions& option
                   fmt::format("is the name of two maps; give each its own, as in {}",
                               field("map", "NAME:ROLE=FILE")));
     if (map.image.size() != samples[0].image.size())
-      throw Error(ErrorKind::invalid_content, label_of(map),
+      throw Error(ErrorKind::invalid_content, map.label(),
                   fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
-                              map.image.width(), map.image.height(), label_of(samples[0]),
+                              map.image.width(), map.image.height(), samples[0].label(),
                               samples[0].image.width(), samples[0].image.height()));
     if (map.role == Role::normal && map.image.channels() < 3)
       throw Error(
-          ErrorKind::invalid_content, label_of(map),
+          ErrorKind::invalid_content, map.label(),
           fmt::format("has {} channel{}, and a normal map has 3: x, y and z; give another role, such as "
                       "height",
                       map.image.channels(), map.image.channels() == 1 ? "" : "s"));

@@ -83,7 +83,7 @@ void check_components(const SampleMap& map, bool signed_ones) {
     const float v = map.image.data()[at];
     if (at % channels >= 3 || (v >= low && v <= high)) continue;
     const int texel = static_cast<int>(at / channels);
-    throw Error(ErrorKind::invalid_content, map.file.empty() ? map.name : map.file,
+    throw Error(ErrorKind::invalid_content, map.label(),
                 fmt::format("holds {} at texel ({}, {}); components of normals are 0 to 1, or -1 to 1: scale "
                             "the map, or give it another role",
                             v, texel % map.image.width(), texel / map.image.width()));
@@ -95,7 +95,7 @@ void check_components(const SampleMap& map, bool signed_ones) {
 std::vector<std::string> complete_normals(SampleMap& map) {
   const int channels = map.image.channels();
   if (channels == 1)
-    throw Error(ErrorKind::invalid_content, map.file.empty() ? map.name : map.file,
+    throw Error(ErrorKind::invalid_content, map.label(),
                 "has 1 channel, and a normal map has 3: x, y and z; give another role, such as height");
   std::vector<std::string> notes;
   const bool floats = map.depth == Depth::f16 || map.depth == Depth::f32;

@@ -13,10 +13,6 @@
 namespace tilepack {
 namespace {
 
-std::string label_of(const SampleMap& map) {
-  return map.file.empty() ? map.name : map.file;
-}
-
 std::string place_of(const Image& image, std::size_t value) {
   const auto texel = value / static_cast<std::size_t>(image.channels());
   const auto width = static_cast<std::size_t>(image.width());
@@ -30,7 +26,7 @@ const char* convention(NormalY y) {
 class Notes {
 public:
   void add(const SampleMap& map, const std::string& sentence) {
-    list.push_back(label_of(map) + ": " + sentence);
+    list.push_back(map.label() + ": " + sentence);
   }
   std::vector<std::string> list;
 };
@@ -114,7 +110,7 @@ void apply_range(SampleMap& map, const MaterialOptions& options) {
     range = *options.height_range;
     for (const auto& end : {least, greatest})
       if (*end < static_cast<float>(range.low) || *end > static_cast<float>(range.high))
-        throw Error(ErrorKind::invalid_content, label_of(map),
+        throw Error(ErrorKind::invalid_content, map.label(),
                     fmt::format("holds {} at {}, outside of {}; take {}, or {}", *end,
                                 place_of(map.image, static_cast<std::size_t>(end - values.begin()) /
                                                         static_cast<std::size_t>(color_channels(channels)) *
@@ -177,7 +173,7 @@ void check_storable(const SampleMap& map, Depth depth) {
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   const auto worst = -*least > *greatest - 1 ? least : greatest;
   throw Error(
-      ErrorKind::invalid_content, label_of(map),
+      ErrorKind::invalid_content, map.label(),
       fmt::format("holds values of {} to {} ({} at {}), and {} holds 0 to 1: {:.2g} % of the texels would be "
                   "clipped. {}",
                   *least, *greatest, *worst,

@@ -16,7 +16,7 @@
 namespace tilepack {
 namespace {
 
-constexpr std::string_view magic = "tilepack-index-1\n";
+constexpr std::string_view index_magic = "tilepack-index-1\n";
 constexpr std::int64_t second = 1'000'000'000;
 constexpr std::int64_t margin = second / 10; // coarser than the times of any file system in use but FAT
 
@@ -101,8 +101,8 @@ CurrentIndex::CurrentIndex(std::string name) : file(std::move(name)) {
 void CurrentIndex::read(std::string_view bytes) {
   std::string_view text = bytes;
   ContentHash whole;
-  if (!text.starts_with(magic)) return;
-  text.remove_prefix(magic.size());
+  if (!text.starts_with(index_magic)) return;
+  text.remove_prefix(index_magic.size());
   if (!take_hash(text, whole) || whole != hash_of(text)) return;
   for (std::string_view output; take(text, output);) {
     Note note;
@@ -123,7 +123,7 @@ std::string CurrentIndex::text() const {
     for (const std::string& one : note.files) put(files, one);
     put(body, files);
   }
-  std::string text(magic);
+  std::string text(index_magic);
   put(text, hex(hash_of(body)));
   return text + body;
 }

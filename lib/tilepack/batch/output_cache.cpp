@@ -26,10 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "tilepack-cache-1\n";
+constexpr std::string_view cache_magic = "tilepack-cache-1\n";
 constexpr std::size_t longest_head = std::size_t{16} << 20;
-constexpr std::size_t most_files = 65536;
-constexpr std::size_t bytes_at_a_time = std::size_t{512} << 10;
+constexpr std::size_t most_cached_files = 65536;
+constexpr std::size_t copied_at_a_time = std::size_t{512} << 10;
 constexpr std::int64_t unfinished_seconds = 3600; // nobody writes one output for so long
 
 class Descriptor {
@@ -91,7 +91,7 @@ bool parsed_number(std::string_view text, std::uint64_t& number) {
 }
 
 std::vector<char>& buffer() {
-  thread_local std::vector<char> bytes(bytes_at_a_time);
+  thread_local std::vector<char> bytes(copied_at_a_time);
   return bytes;
 }
 
@@ -100,7 +100,7 @@ bool copy_checked(int from, const CachedOutput::File& file,
                   const std::function<void(std::string_view)>& onward) {
   ContentHasher hasher;
   for (std::uint64_t left = file.size; left > 0;) {
-    const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(left, bytes_at_a_time));
+    const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(left, copied_at_a_time));
     if (read_some(from, buffer().data(), piece) != static_cast<ssize_t>(piece)) return false;
     hasher.add({buffer().data(), piece});
     onward({buffer().data(), piece});
@@ -157,13 +157,13 @@ std::string cache_head_text(const std::vector<CachedOutput::File>& files) {
   std::string list = fmt::format("{}\n", files.size());
   for (const CachedOutput::File& file : files)
     list += fmt::format("{}\n{}\n{}\n", file.name, file.size, hex(file.hash));
-  return fmt::format("{}{}\n{}\n{}", magic, hex(hash_of(list)), list.size(), list);
+  return fmt::format("{}{}\n{}\n{}", cache_magic, hex(hash_of(list)), list.size(), list);
 }
 
 std::optional<CachedOutput> parsed_cache_head(std::string_view bytes) {
   std::string_view text = bytes, hash, line;
-  if (!text.starts_with(magic)) return std::nullopt;
-  text.remove_prefix(magic.size());
+  if (!text.starts_with(cache_magic)) return std::nullopt;
+  text.remove_prefix(cache_magic.size());
   std::uint64_t size = 0, count = 0;
   if (!take_line(text, hash) || !take_line(text, line) || !parsed_number(line, size) || size > text.size())
     return std::nullopt;
@@ -171,7 +171,7 @@ std::optional<CachedOutput> parsed_cache_head(std::string_view bytes) {
   head.head_size = bytes.size() - text.size() + size;
   text = text.substr(0, size);
   if (parsed_hash(hash) != hash_of(text) || !take_line(text, line) || !parsed_number(line, count) ||
-      count < 1 || count > most_files)
+      count < 1 || count > most_cached_files)
     return std::nullopt;
   for (std::uint64_t i = 0; i < count; ++i) {
     CachedOutput::File file;

@@ -11,7 +11,7 @@ namespace tilepack {
 namespace {
 
 constexpr float brighter = 8;
-constexpr double usual_share = 0.99;
+constexpr double ordinary_share = 0.99;
 constexpr std::size_t at_most_one_in = 200;
 
 // The brightest channel, alpha left out.
@@ -29,7 +29,7 @@ float usual_brightness(const Image& image, std::size_t colors) {
     values.push_back(
         brightness(image.texel(static_cast<int>(i % width), static_cast<int>(i / width)), colors));
   const auto nth =
-      values.begin() + static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(values.size() - 1));
+      values.begin() + static_cast<std::ptrdiff_t>(ordinary_share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
 }

@@ -1,5 +1,7 @@
 #include "tilepack/pack/map_meaning.h"
 
+#include "tilepack/pack/json_enum.h"
+
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -9,11 +11,6 @@ namespace tilepack {
 namespace {
 
 constexpr double largest_height = 1e30; // of values that are baked
-
-template <NamedEnum Enum>
-Enum named(const JsonCursor& value) {
-  return enum_names<Enum>[value.one_of(names_of<Enum>())].value;
-}
 
 void check_role(const JsonCursor& field, const MapFormat& map, Role role) {
   if (map.role != role)

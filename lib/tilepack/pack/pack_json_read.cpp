@@ -7,6 +7,7 @@
 #include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/pack/file_name.h"
+#include "tilepack/pack/json_enum.h"
 #include "tilepack/pack/map_meaning.h"
 #include "tilepack/pack/pack_json.h"
 #include "tilepack/tileset/limits.h"
@@ -21,12 +22,6 @@ namespace tilepack {
 namespace {
 
 using LevelFiles = std::vector<TextureFile>;
-
-// The enumerator whose name stands at `value`.
-template <NamedEnum Enum>
-Enum named(const JsonCursor& value) {
-  return enum_names<Enum>[value.one_of(names_of<Enum>())].value;
-}
 
 Size read_size(const JsonCursor& value, int largest) {
   value.array(2, 2);

@@ -19,11 +19,6 @@ namespace {
 using Remarks = std::vector<BakeRemark>;
 namespace limit = verdict_thresholds;
 
-std::string shown(Size size) {
-  return size.width == size.height ? fmt::format("{}", size.width)
-                                   : fmt::format("{}x{}", size.width, size.height);
-}
-
 // Levels of a tile: both sides are halved as long as they are even.
 int mip_levels(Size tile) {
   return 1 + std::countr_zero(static_cast<unsigned>(tile.width | tile.height));
@@ -99,15 +94,15 @@ void judge_periods(const BakeFacts& facts, Remarks& remarks) {
     const char* const limit = is_writing(facts) ? " Lines then run on, what they say does not." : "";
     if (fitting != side && misfit(period, fitting) < off)
       add(remarks, grade, "periods-broken",
-          fmt::format("{} Bake with {}, which {} finds{}.{}", found, field("tile-size", shown(advice.size)),
-                      field("tile-size", "auto"),
+          fmt::format("{} Bake with {}, which {} finds{}.{}", found,
+                      field("tile-size", tile_size_value(advice.size)), field("tile-size", "auto"),
                       mip_levels(advice.size) < mip_levels(tile)
                           ? fmt::format(" (tiles of that size have {} mip level{}, these {})",
                                         mip_levels(advice.size), mip_levels(advice.size) == 1 ? "" : "s",
                                         mip_levels(tile))
                           : "",
                       limit),
-          Cure{"tile-size", shown(advice.size)});
+          Cure{"tile-size", tile_size_value(advice.size)});
     else
       add(remarks, grade, "periods-broken",
           fmt::format("{} No tile that fits holds whole repeats; a larger sample, or one "
@@ -145,7 +140,7 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
   if (o.interior == Construction::quilt) suggest({"interior", "patch"});
   if (o.effort < limits::highest_effort) suggest({"effort", std::to_string(limits::highest_effort)});
   if (2 * o.tile_size.width <= facts.sample.width / 2 && 2 * o.tile_size.height <= facts.sample.height / 2)
-    suggest({"tile-size", shown(Size{2 * o.tile_size.width, 2 * o.tile_size.height})}, "",
+    suggest({"tile-size", tile_size_value(Size{2 * o.tile_size.width, 2 * o.tile_size.height})}, "",
             " (fewer cuts for the area)");
   suggest({"seed", ""}, "another ");
   const int colors =
@@ -306,6 +301,11 @@ void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
 }
 
 } // namespace
+
+std::string tile_size_value(Size size) {
+  return size.width == size.height ? fmt::format("{}", size.width)
+                                   : fmt::format("{}x{}", size.width, size.height);
+}
 
 std::vector<JudgedFigure> judged_figures(const BakeFacts& facts) {
   const SetFigures& f = facts.report.figures;

@@ -13,6 +13,9 @@
 
 namespace tilepack {
 
+/// A tile size as its option has it: "128", or "128x88".
+std::string tile_size_value(Size size);
+
 /// All that can be said about a finished bake, in numbers.
 struct BakeFacts {
   SetReport report;

@@ -10,11 +10,6 @@
 namespace tilepack {
 namespace {
 
-std::string shown(Size size) {
-  return size.width == size.height ? fmt::format("{}", size.width)
-                                   : fmt::format("{}x{}", size.width, size.height);
-}
-
 double texels_of(Size size) {
   return static_cast<double>(size.width) * size.height;
 }
@@ -42,7 +37,7 @@ SizeChoice size_choice(const BakeFacts& facts) {
   choice.times_sample = facts.tiles * texels_of(o.tile_size) / texels_of(facts.sample);
   const Size half{o.tile_size.width / 2, o.tile_size.height / 2};
   if (std::min(half.width, half.height) >= 16) {
-    choice.smaller.push_back({"tile-size", shown(half)});
+    choice.smaller.push_back({"tile-size", tile_size_value(half)});
     choice.smaller_shows = facts.report.figures.coverage / 4;
   }
   const bool corner = o.coloring == Coloring::corner;
@@ -51,7 +46,7 @@ SizeChoice size_choice(const BakeFacts& facts) {
                                                : o.colors.horizontal * o.colors.horizontal *
                                                      o.colors.vertical * o.colors.vertical);
   if (colors < (corner ? limits::most_corner_colors : limits::most_edge_colors)) {
-    choice.richer = {{"colors", fmt::format("{}", colors + 1)}, {"tile-size", shown(o.tile_size)}};
+    choice.richer = {{"colors", fmt::format("{}", colors + 1)}, {"tile-size", tile_size_value(o.tile_size)}};
     choice.richer_tiles = complete ? fourth_power(colors + 1) : 2 * (colors + 1) * (colors + 1);
   }
   return choice;

@@ -16,12 +16,6 @@ namespace {
 constexpr double below_one = 1.0 - 0x1p-24; // as a float
 constexpr std::uint32_t longest_side = std::uint32_t{1} << 31;
 
-std::uint32_t bits_for(std::uint32_t largest) {
-  std::uint32_t bits = 1;
-  while (bits < 16 && largest >> bits != 0) bits *= 2;
-  return bits;
-}
-
 // a mod n; a is below 2^31.
 Expression modulo(Expression a, std::uint32_t n) {
   return std::has_single_bit(n) ? std::move(a) & word(n - 1) : std::move(a) % word(n);

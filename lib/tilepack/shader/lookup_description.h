@@ -58,6 +58,9 @@ struct PackedTable {
   std::uint32_t bits = 8;
 };
 
+/// Bits of an entry that holds 0 to `largest`: 1, 2, 4, 8 or 16.
+std::uint32_t bits_for(std::uint32_t largest);
+
 /// Adds `entries`, at least one and each below 65536. Error (invalid_content) for more words than
 /// most_table_words; `instead` says what to bake.
 PackedTable add_table(LookupProgram& program, const std::string& name, const std::string& comment,

@@ -8,15 +8,12 @@
 #include <utility>
 
 namespace tilepack {
-namespace {
 
 std::uint32_t bits_for(std::uint32_t largest) {
   std::uint32_t bits = 1;
   while (bits < 16 && largest >> bits != 0) bits *= 2;
   return bits;
 }
-
-} // namespace
 
 PackedTable add_table(LookupProgram& program, const std::string& name, const std::string& comment,
                       const std::vector<std::uint32_t>& entries, const std::string& instead) {

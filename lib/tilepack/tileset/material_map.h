@@ -103,6 +103,9 @@ struct SampleMap : MapFormat {
             std::string from = {})
       : SampleMap(MapFormat{std::move(name_of_map), meaning, encoded, stored}, std::move(values),
                   std::move(from)) {}
+
+  /// What messages call it: the file, or the name of what came from none.
+  const std::string& label() const { return file.empty() ? name : file; }
 };
 
 /// One map of a tile set: the tiles' images in the order of their ids, all of one size.
