@@ -15,8 +15,11 @@ std::string counted(Count count, const char* thing) {
 }
 
 std::string colors_text(const Pack& pack) {
-  if (coloring_of(pack.tiles) == Coloring::corner) return counted(pack.colors.corner, "corner color");
-  return fmt::format("{} x {} edge colors", pack.colors.horizontal, pack.colors.vertical);
+  const std::string colors =
+      coloring_of(pack.tiles) == Coloring::corner
+          ? counted(pack.colors.corner, "corner color")
+          : fmt::format("{} x {} edge colors", pack.colors.horizontal, pack.colors.vertical);
+  return pack.colors.variants > 1 ? fmt::format("{} with {} variants", colors, pack.colors.variants) : colors;
 }
 
 // "3² + 3² turned by 45.00°, 0.35 % unused, borders match".

@@ -57,6 +57,7 @@ const std::map<std::string, Values> values_of_fields{
     {"jump-weight", {{"0", "1000"}, {"-1", "1001", "0.5"}}},
     {"roughness-from-normals", {{"true", "false"}, {"on", "0"}}},
     {"alpha-coverage", {{"0", "100"}, {"-1", "101", "50%"}}},
+    {"variants", {{"2", "8"}, {"0", "9", "2x2"}}},
     {"mapping", {{"permutation", "mix", "even", "index"}, {"hash"}}},
     {"virtual-size", {{"1", "2147483648", "5x7"}, {"0", "2147483649", "-1x4"}}},
     {"format", {{"png", "exr"}, {"jpg", "PNG"}}},
@@ -97,6 +98,9 @@ TEST_CASE("the last of several settings wins, and coloring decides what colors m
   CHECK(options.layout == LayoutKind::de_bruijn);
   CHECK(with("coloring", "corner").synth.colors == ColorCounts{0, 0, 2});
   CHECK(with("colors", "3x2").synth.colors == ColorCounts{3, 2, 0});
+  const std::vector<BakeSetting> with_variants{{"variants", "2", "", ErrorKind::usage},
+                                               {"colors", "3", "", ErrorKind::usage}};
+  CHECK(bake_options(with_variants).synth.colors == ColorCounts{0, 0, 3, 2});
   const BakeSetting many[] = {settings[2], {"colors", "5", "--colors", ErrorKind::usage}};
   CHECK_THROWS_AS(bake_options(many), Error); // corners have at most 4
 }

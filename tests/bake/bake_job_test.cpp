@@ -138,6 +138,8 @@ TEST_CASE("the canonical text changes with all that reaches the bytes of a pack"
                                                   {"flatten", "50"},
                                                   {"coloring", "edge"},
                                                   {"colors", "3"},
+                                                  {"variants", "2"},
+                                                  {"straighten", "false"},
                                                   {"set", "sequential"},
                                                   {"interior", "quilt"},
                                                   {"guard", "1"},

@@ -40,6 +40,18 @@ TEST_CASE("a plan says where every tile will lie and how large the texture is") 
   CHECK(packed(set, turned(), 1).maps[0].levels == pack.maps[0].levels);
 }
 
+TEST_CASE("a rotated layout of two variants lays their toruses side by side") {
+  PackingOptions options = turned();
+  options.rotated.scheme = RotatedScheme{4, 0, 2};
+  options.mapping = MappingKind::mix;
+  for (const ColorCounts& colors : {ColorCounts{2, 2, 0, 2}, ColorCounts{0, 0, 2, 2}}) {
+    const PackingPlan plan = planned_packing(options, complete_set(colors), {16, 16});
+    CHECK(plan.layout.rotated.matching == Matching::found);
+    CHECK(plan.layout.rotated.gutter == 0);
+    CHECK(plan.texture == Size{128, 64});
+  }
+}
+
 // The search is the slow part of a plan; with another plan than the search would find, its layout is what counts.
 TEST_CASE("packing takes the layout from its plan and searches for none") {
   const TileSet set = noise_set();

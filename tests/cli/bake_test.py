@@ -37,7 +37,8 @@ class Bake(CommandCase):
         validator = jsonschema.Draft202012Validator(schema)
         kinds = [(), ("--mapping", "permutation"), ("--mapping", "index"), ("--colors", "3x1", "--mips", "none"),
                  ("--mips", "corners"), ("--tile-size", "12x20"), ("--format", "exr"),
-                 ("--layout", "rotated"), ("--layout", "array", "--border", 2), ("--corner-pack",)]
+                 ("--layout", "rotated"), ("--layout", "array", "--border", 2), ("--corner-pack",), ("--variants", 2),
+                 ("--variants", 3, "--mapping", "mix", "--coloring", "edge"), ("--variants", 8, "--colors", 1)]
         for arguments in kinds:
             with self.subTest(arguments):
                 self.bake(*arguments)
@@ -89,6 +90,31 @@ class Bake(CommandCase):
         for value in ("101", "-1", "half"):
             self.refused("bake", "sample.png", "-o", "no", *SMALL, f"--flatten={value}", code=1,
                          saying="a whole number of 0 to 100")
+
+    def test_variants_are_whole_packs_in_every_layout(self):
+        self.bake(output="plain")
+        self.bake("--variants", 1, output="one")
+        self.assertEqual(self.contents("plain"), self.contents("one"))
+        self.assertNotIn("variants", self.pack("plain"))
+        for options in ((), ("--coloring", "edge"), ("--coloring", "edge", "--corner-pack"), ("--layout", "rotated"),
+                        ("--layout", "array", "--border", 2), ("--mapping", "index"), ("--mips", "least-squares")):
+            with self.subTest(options):
+                self.bake("--variants", 2, *options, output="two")
+                pack = self.pack("two")
+                self.assertEqual((pack["variants"], len(pack["tiles"])), (2, 32))
+                colors = [{k: v for k, v in tile.items() if k != "id"} for tile in pack["tiles"]]
+                self.assertEqual(colors[:16], colors[16:])
+                self.run_tilepack("validate", "two")
+        self.assertIn("2 variants", self.run_tilepack("inspect", "two").stdout)
+        self.bake("--variants", 2, "--jobs", 1, output="few")
+        self.bake("--variants", 2, "--jobs", 4, output="many")
+        self.assertEqual(self.contents("few"), self.contents("many"))
+        self.run_tilepack("inspect", "many", "--picture", "tiles.png")
+        self.run_tilepack("inspect", "many", "--mapping")
+        for options, saying in ((("--variants", 9), "1 to 8"), (("--variants", 2, "--interior", "quilt"), "--interior patch"),
+                                (("--variants", 2, "--colors", "8x8"), "4096"),
+                                (("--variants", 2, "--set", "sequential"), "sequential set")):
+            self.refused("bake", "sample.png", "-o", "no", *SMALL, *options, code=1, saying=saying)
 
     def test_nothing_of_the_machine_is_recorded(self):
         self.bake(output="plain")

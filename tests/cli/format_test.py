@@ -52,6 +52,18 @@ def even_color(seed, pattern, x, y, colors):
     return (int(pattern[v][u]) + ((word >> 16) * colors >> 16)) % colors
 
 
+def even_variant(seed, variants, x, y):
+    word = mix_word(seed, 2, x >> 6, y >> 6)
+    u, v = (x + word) & 63, (y + (word >> 6)) & 63
+    if word >> 12 & 1:
+        u = (62 - u) & 63
+    if word >> 13 & 1:
+        v = (62 - v) & 63
+    if word >> 14 & 1:
+        u, v = v, u
+    return int(variants[v][u])
+
+
 def tile_index(a, b):
     if a < b:
         return b * b + 2 * a
@@ -85,6 +97,20 @@ class Sampler:
             return entry(x + entry(2 * y)) % colors
         return entry(entry(x) + y) % colors
 
+    def variant(self, x, y):
+        count = self.pack.get("variants", 1)
+        width, height = self.mapping["virtual_size"]
+        x, y = x % width, y % height
+        if count == 1:
+            return 0
+        if self.mapping["kind"] == "mix":
+            return mix_color(self.mapping["seed"], 3, x, y, count)
+        if self.mapping["kind"] == "even":
+            return even_variant(self.mapping["seed"], self.mapping["variants"], x, y)
+        table = self.mapping["table"]
+        entry = lambda i: table[i % len(table)]
+        return entry(entry(entry(x) + y) + x) % count
+
     def tile(self, x, y):
         colors = self.pack["colors"]
         if self.mapping["kind"] == "index":
@@ -94,11 +120,11 @@ class Sampler:
             nw, ne = self.lattice("C", x, y), self.lattice("C", x + 1, y)
             sw, se = self.lattice("C", x, y + 1), self.lattice("C", x + 1, y + 1)
             k = colors["corner"]
-            return ((nw * k + ne) * k + sw) * k + se
+            return ((nw * k + ne) * k + sw) * k + se + self.variant(x, y) * k**4
         north, south = self.lattice("H", x, y), self.lattice("H", x, y + 1)
         west, east = self.lattice("V", x, y), self.lattice("V", x + 1, y)
         kh, kv = colors["horizontal"], colors["vertical"]
-        return ((north * kv + east) * kh + south) * kv + west
+        return ((north * kv + east) * kh + south) * kv + west + self.variant(x, y) * (kh * kv)**2
 
     def texel(self, x, y):
         width, height = self.pack["tile_size"]
@@ -111,7 +137,9 @@ class Format(CommandCase):
     def test_packs_sampled_by_the_page(self):
         sample = self.noise_png("sample.png", 64, 48)
         for arguments in (("--mapping", "mix"), ("--mapping", "permutation", "--colors", "2x3"), ("--mapping", "index"), (), ("--colors", 3, "--virtual-size", "70x90", "--seed", 5),
-                          ("--mapping", "mix", "--colors", "3x1", "--seed", 2**53 - 1), ("--tile-size", "12x10")):
+                          ("--mapping", "mix", "--colors", "3x1", "--seed", 2**53 - 1), ("--tile-size", "12x10"),
+                          ("--variants", 2, "--virtual-size", "200x150"), ("--variants", 3, "--mapping", "mix", "--colors", "1x2"),
+                          ("--variants", 2, "--mapping", "permutation"), ("--variants", 5, "--mapping", "index", "--colors", 1)):
             with self.subTest(arguments):
                 self.run_tilepack("bake", sample, "-o", "out", "--tile-size", 8, "--effort", 0, "--virtual-size",
                                   "7x5", *arguments)

@@ -61,6 +61,36 @@ TEST_CASE("the de Bruijn layout holds each tile once and agrees at every corner 
   }
 }
 
+TEST_CASE("variants lie on copies of the torus one below the other, and agree where these meet") {
+  for (const ColorCounts& counts :
+       {ColorCounts{0, 0, 2, 2}, ColorCounts{0, 0, 3, 4}, ColorCounts{0, 0, 1, 8}}) {
+    const TileColors set = complete_set(counts);
+    const auto& tiles = std::get<std::vector<CornerTile>>(set);
+    const Layout layout = de_bruijn_layout(tiles);
+    const int side = counts.corner * counts.corner;
+    REQUIRE(layout.columns == side);
+    REQUIRE(layout.rows == counts.variants * side);
+    std::vector<int> at(tiles.size(), -1);
+    for (const Cell& cell : layout.cells) {
+      CHECK(cell.row / side == cell.tile / combinations(counts)); // the variant
+      at[static_cast<std::size_t>(cell.row * side + cell.column)] = cell.tile;
+    }
+    const auto tile = [&](int column, int row) {
+      return tiles[static_cast<std::size_t>(
+          at.at(static_cast<std::size_t>(row % layout.rows * side + column % side)))];
+    };
+    for (int row = 0; row < layout.rows; ++row)
+      for (int column = 0; column < side; ++column) {
+        CHECK(tile(column, row).ne == tile(column + 1, row).nw);
+        CHECK(tile(column, row).se == tile(column, row + 1).ne);
+        CHECK(tile(column, row).se == tile(column + 1, row + 1).nw);
+      }
+  }
+  std::vector<CornerTile> tiles = std::get<std::vector<CornerTile>>(complete_set({0, 0, 2, 2}));
+  tiles[20] = tiles[21];
+  CHECK_THROWS_WITH(de_bruijn_layout(tiles), Catch::Contains("tiles 20 and 21"));
+}
+
 TEST_CASE("the de Bruijn layout refuses what is no complete set of 1 to 4 colors") {
   CHECK_THROWS_AS(de_bruijn_color(5, 0, 0), Error);
   CHECK_THROWS_AS(de_bruijn_layout({}), Error);

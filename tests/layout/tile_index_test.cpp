@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <set>
+#include <tuple>
 #include <utility>
 
 using namespace tilepack;
@@ -40,13 +41,15 @@ TEST_CASE("TileIndex1D gives the strip of three colors drawn in Wei 2004, figure
 }
 
 TEST_CASE("the tile-index layout holds each tile once and agrees along every border of the torus") {
-  const std::pair<int, int> counts[] = {{1, 1}, {1, 3}, {2, 2}, {3, 2}, {4, 4}, {8, 8}};
-  for (const auto& [horizontal, vertical] : counts) {
-    CAPTURE(horizontal, vertical);
-    const std::vector<EdgeTile> tiles = complete_edge_set(horizontal, vertical);
+  const std::tuple<int, int, int> counts[] = {{1, 1, 1}, {1, 3, 1}, {2, 2, 1}, {3, 2, 1}, {4, 4, 1},
+                                              {8, 8, 1}, {1, 1, 3}, {2, 3, 2}, {3, 2, 8}};
+  for (const auto& [horizontal, vertical, variants] : counts) {
+    CAPTURE(horizontal, vertical, variants);
+    const TileColors set = complete_set({horizontal, vertical, 0, variants});
+    const auto& tiles = std::get<std::vector<EdgeTile>>(set);
     const Layout layout = tile_index_layout(tiles);
     REQUIRE(layout.columns == vertical * vertical);
-    REQUIRE(layout.rows == horizontal * horizontal);
+    REQUIRE(layout.rows == variants * horizontal * horizontal);
     REQUIRE(layout.cells.size() == tiles.size());
 
     std::vector<int> at(tiles.size(), -1);

@@ -69,6 +69,28 @@ struct Plain {
     return -1;
   }
 
+  std::int64_t variant(std::int64_t at_x, std::int64_t at_y) const {
+    const std::int64_t x = wrapped(at_x, mapping.size.width), y = wrapped(at_y, mapping.size.height);
+    switch (mapping.kind) {
+    case MappingKind::permutation:
+      return permuted(permuted(permuted(x) + y) + x) % colors.variants;
+    case MappingKind::mix:
+      return hashed(3, x, y) / 65536 * colors.variants / 65536;
+    case MappingKind::even: {
+      if (colors.variants == 1) return 0;
+      const std::int64_t word = hashed(2, x / 64, y / 64);
+      std::int64_t u = (x + word) % 64, v = (y + word / 64) % 64;
+      if (word / 4096 % 2 == 1) u = (126 - u) % 64;
+      if (word / 8192 % 2 == 1) v = (126 - v) % 64;
+      if (word / 16384 % 2 == 1) std::swap(u, v);
+      return mapping.variants[static_cast<std::size_t>(v * 64 + u)];
+    }
+    case MappingKind::index:
+      break;
+    }
+    return -1;
+  }
+
   std::array<std::int64_t, 4> of_cell(std::int64_t x, std::int64_t y) const {
     if (colors.corner > 0)
       return {color('C', x, y), color('C', x + 1, y), color('C', x, y + 1), color('C', x + 1, y + 1)};
@@ -81,10 +103,7 @@ Pack bare_pack(const Mapping& mapping, const ColorCounts& colors, LayoutKind kin
   Pack pack;
   pack.tile_size = tile;
   pack.colors = colors;
-  if (colors.corner > 0)
-    pack.tiles = complete_corner_set(colors.corner);
-  else
-    pack.tiles = complete_edge_set(colors.horizontal, colors.vertical);
+  pack.tiles = complete_set(colors);
   const int tiles = tile_count(pack.tiles);
   switch (kind) {
   case LayoutKind::tile_index:
@@ -140,7 +159,8 @@ void check_cells(const Mapping& mapping, const ColorCounts& colors, LayoutKind k
     const CellColors found = colors_of_cell(lookup, cell);
     const int kh = colors.corner > 0 ? colors.corner : colors.horizontal;
     const int kv = colors.corner > 0 ? colors.corner : colors.vertical;
-    const auto id = ((expected[0] * kv + expected[1]) * kh + expected[2]) * kv + expected[3];
+    const auto id = ((expected[0] * kv + expected[1]) * kh + expected[2]) * kv + expected[3] +
+                    plain.variant(x, y) * combinations(colors);
     const Cell& at = pack.layout.cells[static_cast<std::size_t>(id)];
     const TexturePlace place = place_of_cell(lookup, cell);
     const bool good = found.a == expected[0] && found.b == expected[1] && found.c == expected[2] &&
@@ -175,6 +195,12 @@ TEST_CASE("every mapping leads from a cell to the colors, the tile and the place
   for (const int k : {2, 3, 4})
     check_cells(even_mapping({1000, far}, k, 11), {0, 0, k}, LayoutKind::de_bruijn);
   check_cells(even_mapping({40, 65}, 2, 12), {0, 0, 2}, LayoutKind::rotated);
+
+  const ColorCounts three_variants{3, 2, 0, 3};
+  check_cells(mix_mapping({far, 1000}, 9), three_variants, LayoutKind::tile_index);
+  check_cells(permutation_mapping({256, 100}, three_variants, 3), three_variants, LayoutKind::tile_index);
+  for (const int k : {2, 3, 4})
+    check_cells(even_mapping({far, 1000}, k, 11, 5), {0, 0, k, 5}, LayoutKind::de_bruijn);
 
   Mapping far_permutation; // no bake makes one so large, but a pack may hold it
   far_permutation.size = {far, far - 1};

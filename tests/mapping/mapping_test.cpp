@@ -1,15 +1,18 @@
 #include "tilepack/error/error.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/mapping.h"
+#include "tilepack/numeric/random.h"
 #include "tilepack/numeric/wrap.h"
 
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 using namespace tilepack;
 
@@ -62,6 +65,7 @@ TEST_CASE("the table is long enough to repeat no row, and a multiple of the colo
   CHECK(permutation_mapping({256, 100}, {3, 4, 0}, 0).table.size() == 516);
   CHECK(permutation_mapping({1, 1}, {1, 1, 0}, 0).table.size() == 2);
   CHECK(permutation_mapping({10, 20}, {0, 0, 3}, 0).table.size() == 42);
+  CHECK(permutation_mapping({10, 20}, {0, 0, 3, 5}, 0).table.size() == 45);
 }
 
 TEST_CASE("the permutation hash is that of the paper, coordinate for coordinate") {
@@ -168,14 +172,14 @@ struct Evenness {
   double variance = 0;
 };
 
-Evenness evenness(const Mapping& mapping, int colors) {
+Evenness evenness(const Mapping& mapping, const ColorCounts& colors) {
   constexpr int window = 8;
   const double weight[window] = {0.04, 0.31, 0.69, 0.96, 0.96, 0.69, 0.31, 0.04};
   Evenness sum;
   int windows = 0;
   for (int wy = 0; wy < 100; wy += 5)
     for (int wx = 0; wx < 100; wx += 5, ++windows) {
-      const auto id = [&](int x, int y) { return tile_at(mapping, {0, 0, colors}, wx + x, wy + y); };
+      const auto id = [&](int x, int y) { return tile_at(mapping, colors, wx + x, wy + y); };
       double worst = 0;
       for (int dy = 0; dy <= 4; ++dy)
         for (int dx = -4; dx <= 4; ++dx) {
@@ -191,7 +195,7 @@ Evenness evenness(const Mapping& mapping, int colors) {
           worst = std::max(worst, equal / all);
         }
       sum.repeat += worst;
-      const double fair = 64.0 / (colors * colors * colors * colors);
+      const double fair = 64.0 / (combinations(colors) * colors.variants);
       std::map<int, int> counts;
       for (int y = 0; y < window; ++y)
         for (int x = 0; x < window; ++x) ++counts[id(x, y)];
@@ -206,8 +210,8 @@ Evenness evenness(const Mapping& mapping, int colors) {
 
 TEST_CASE("the even mapping repeats less nearby than independent colors, and shows tiles more evenly") {
   for (const int k : {2, 3, 4}) {
-    const Evenness even = evenness(even_mapping({4096, 4096}, k, 11), k);
-    const Evenness mix = evenness(mix_mapping({4096, 4096}, 11), k);
+    const Evenness even = evenness(even_mapping({4096, 4096}, k, 11), {0, 0, k});
+    const Evenness mix = evenness(mix_mapping({4096, 4096}, 11), {0, 0, k});
     INFO(k << " colors: repeat " << even.repeat << " against " << mix.repeat << ", variance " << even.variance
            << " against " << mix.variance);
     CHECK(even.repeat < 0.9 * mix.repeat);
@@ -233,4 +237,44 @@ TEST_CASE("sizes out of range are refused") {
   CHECK_THROWS_AS(mix_mapping({(std::int64_t{1} << 31) + 1, 1}, 0), Error);
   CHECK_THROWS_AS(index_mapping(mix_mapping({std::int64_t{1} << 31, std::int64_t{1} << 31}, 0), edges_3x2),
                   Error);
+}
+
+TEST_CASE("variants leave a cell's colors alone, and each comes up about as often") {
+  const ColorCounts corners{0, 0, 2, 3}, edges{2, 1, 0, 3};
+  const VirtualSize size{96, 96};
+  const Mapping mix = mix_mapping(size, 5), even = even_mapping(size, 2, 5, 3);
+  const Mapping of_corners = permutation_mapping(size, corners, 5),
+                of_edges = permutation_mapping(size, edges, 5);
+  for (const auto& [mapping, colors] :
+       {std::pair{&mix, corners}, std::pair{&mix, edges}, std::pair{&even, corners},
+        std::pair{&of_corners, corners}, std::pair{&of_edges, edges}}) {
+    ColorCounts one = colors;
+    one.variants = 1;
+    std::map<int, int> counts;
+    for (int y = 0; y < 96; ++y)
+      for (int x = 0; x < 96; ++x) {
+        const int tile = tile_at(*mapping, colors, x, y);
+        REQUIRE(tile % combinations(colors) == tile_at(*mapping, one, x, y));
+        ++counts[tile / combinations(colors)];
+      }
+    CAPTURE(static_cast<int>(mapping->kind));
+    REQUIRE(counts.size() == 3);
+    for (const auto& [variant, count] : counts) CHECK(std::abs(count - 3072) < 250);
+  }
+}
+
+TEST_CASE("an even mapping with variants lays equal tiles far apart") {
+  for (const int colors : {2, 3}) {
+    const Mapping one = even_mapping({256, 256}, colors, 3), two = even_mapping({256, 256}, colors, 3, 2);
+    CHECK(two.table == one.table);
+    CHECK(one.variants.empty());
+    Mapping chance = two; // the same colors, and variants by chance
+    for (std::size_t i = 0; i < chance.variants.size(); ++i)
+      chance.variants[i] = static_cast<int>(random_below(1, "variant", i, 2));
+    const ColorCounts counts{0, 0, colors, 2};
+    CAPTURE(evenness(two, counts).repeat, evenness(chance, counts).repeat,
+            evenness(one, {0, 0, colors}).repeat);
+    CHECK(evenness(two, counts).repeat < 0.8 * evenness(chance, counts).repeat);
+    CHECK(evenness(two, counts).repeat < 0.6 * evenness(one, {0, 0, colors}).repeat);
+  }
 }

@@ -59,6 +59,7 @@ TEST_CASE("the schema's numbers are the limits of the library", "[pack]") {
            {"/$defs/color/maximum", most_edge_colors - 1},
            {"/$defs/corner_colors/properties/corner/maximum", most_corner_colors},
            {"/$defs/corner_color/maximum", most_corner_colors - 1},
+           {"/properties/variants/maximum", most_variants},
            {"/properties/tiles/maxItems", most_tiles},
            {"/$defs/edge_tile/properties/id/maximum", most_tiles - 1},
            {"/$defs/corner_tile/properties/id/maximum", most_tiles - 1},
@@ -99,6 +100,8 @@ TEST_CASE("the schema's numbers are the limits of the library", "[pack]") {
         fmt::format("^[A-Za-z0-9_-]{{1,{}}}$", longest_map_name));
   CHECK(schema()[json::json_pointer("/$defs/even/properties/pattern/items/pattern")] ==
         fmt::format("^[0-{}]{{64}}$", most_corner_colors - 1));
+  CHECK(schema()[json::json_pointer("/$defs/even/properties/variants/items/pattern")] ==
+        fmt::format("^[0-{}]{{64}}$", most_variants - 1));
 }
 
 TEST_CASE("FORMAT.md tells the limits of the library", "[pack]") {
@@ -110,6 +113,7 @@ TEST_CASE("FORMAT.md tells the limits of the library", "[pack]") {
   CHECK(said(page, "`tile_size` \\| two of 1 to " + number) == largest_tile_side);
   CHECK(said(page, "horizontal, vertical\\}`, 1 to " + number) == most_edge_colors);
   CHECK(said(page, "`\\{corner\\}`, 1 to " + number) == most_corner_colors);
+  CHECK(said(page, "`variants` \\| 2 to " + number) == most_variants);
   CHECK(said(page, "`tiles` \\| 1 to " + number) == most_tiles);
   CHECK(said(page, "`maps` \\| 1 to " + number) == most_maps);
   CHECK(said(page, "`name` \\| 1 to " + number) == longest_map_name);

@@ -65,6 +65,37 @@ TEST_CASE("text and description are two forms of one thing", "[pack]") {
   }
 }
 
+TEST_CASE("variants are written where there are several, and only complete sets have them", "[pack]") {
+  CHECK_FALSE(json::parse(pack_json(described(test::noise_pack()))).contains("variants"));
+  for (const MappingKind mapping : all_mappings) {
+    const PackDescription first = described(test::noise_pack(mapping, Depth::u8, 1, 3));
+    const std::string text = pack_json(first);
+    const PackDescription second = parsed_pack_json(text, "pack.json");
+    CHECK(pack_json(second) == text);
+    CHECK(second.pack.colors.variants == 3);
+    CHECK(second.pack.mapping.variants == first.pack.mapping.variants);
+    const json good = json::parse(text);
+    for (const int variants : {1, 2, 4, 9}) {
+      json other = good;
+      other["variants"] = variants;
+      CHECK_FALSE(accepted(other));
+    }
+    json swapped = good; // an index map too: ids past the first combinations are variants by their place
+    std::swap(swapped["tiles"][20], swapped["tiles"][21]);
+    swapped["tiles"][20]["id"] = 20;
+    swapped["tiles"][21]["id"] = 21;
+    CHECK_FALSE(accepted(swapped));
+  }
+  json even = json::parse(pack_json(described(test::noise_pack(MappingKind::even, Depth::u8, 1, 3))));
+  even["mapping"]["variants"][5] = std::string(64, '3');
+  CHECK_FALSE(accepted(even));
+  even["mapping"].erase("variants");
+  CHECK_FALSE(accepted(even));
+  json one = json::parse(pack_json(described(test::noise_pack(MappingKind::even))));
+  one["mapping"]["variants"] = one["mapping"]["pattern"];
+  CHECK_FALSE(accepted(one));
+}
+
 TEST_CASE("files are named after maps and levels", "[pack]") {
   const PackDescription d = described(test::noise_pack(MappingKind::index, Depth::f16));
   CHECK(d.all_files() == std::vector<std::string>{"color_0.png", "color_1.png", "color_2.png", "height_0.exr",

@@ -84,7 +84,8 @@ TEST_CASE("framed tiles share their borders, corners included, in both colorings
         Case{{33, 27}, Coloring::corner, {0, 0, 1}, 3}, Case{{24, 24}, Coloring::corner, {0, 0, 3}, 2},
         Case{{32, 32}, Coloring::edge, {2, 2, 0}, 0}, Case{{40, 24}, Coloring::edge, {3, 2, 0}, 3},
         Case{{4, 4}, Coloring::edge, {1, 1, 0}, 0}, Case{{5, 4}, Coloring::corner, {0, 0, 2}, 0},
-        Case{{9, 64}, Coloring::edge, {1, 4, 0}, 1}}) {
+        Case{{9, 64}, Coloring::edge, {1, 4, 0}, 1}, Case{{32, 32}, Coloring::corner, {0, 0, 2, 3}, 2},
+        Case{{24, 32}, Coloring::edge, {1, 2, 0, 2}, 0}}) {
     const SourceMap map = made(framing(c.tile, c.coloring, c.colors, c.guard));
     CHECK(map.texels.size() == static_cast<std::size_t>(tile_count(map.tiles)));
     check_borders(map, std::max(1, c.guard));
@@ -114,7 +115,8 @@ TEST_CASE("a framed set depends on the seed, not on the number of threads") {
 }
 
 TEST_CASE("each tile's inside is its own") {
-  const SourceMap map = made(framing({32, 32}, Coloring::corner, {0, 0, 2}), {160, 160});
+  const SourceMap map = made(framing({32, 32}, Coloring::corner, {0, 0, 2, 2}), {160, 160});
+  CHECK(map.texels.size() == 32);
   std::vector<SourceTexel> middles;
   for (const auto& tile : map.texels) middles.push_back(tile[16 * 32 + 16]);
   for (std::size_t a = 0; a < middles.size(); ++a)

@@ -25,9 +25,8 @@ namespace {
 
 TileColors wanted_tiles(const BakeOptions& o) {
   const ColorCounts& k = o.synth.colors;
-  if (o.synth.coloring == Coloring::corner) return complete_corner_set(k.corner);
   if (o.set == SetKind::sequential) return sequential_edge_set(k.horizontal, k.vertical);
-  return complete_edge_set(k.horizontal, k.vertical);
+  return complete_set(k);
 }
 
 void check_choice(const BakeOptions& o) {
@@ -38,6 +37,20 @@ void check_choice(const BakeOptions& o) {
     if (count < 1 || count > most)
       throw Error(ErrorKind::usage, field("colors"),
                   fmt::format("{} is not allowed; it must be 1 to {}", count, most));
+  if (k.variants < 1 || k.variants > limits::most_variants)
+    throw Error(ErrorKind::usage, field("variants"),
+                fmt::format("{} is not allowed; it must be 1 to {}", k.variants, limits::most_variants));
+  if (combinations(k) * k.variants > limits::most_tiles)
+    throw Error(
+        ErrorKind::usage, field("variants"),
+        fmt::format(
+            "{} of {} combinations of colors are {} tiles, and a pack holds {}; take fewer, or fewer colors",
+            k.variants, combinations(k), combinations(k) * k.variants, limits::most_tiles));
+  if (k.variants > 1 && o.set == SetKind::sequential)
+    throw Error(
+        ErrorKind::usage, field("variants"),
+        "of a sequential set there are none: an index map chooses between its two tiles for each north and "
+        "west color already");
   if (o.set == SetKind::sequential && o.synth.coloring == Coloring::corner)
     throw Error(ErrorKind::usage, field("set"),
                 "'sequential' is for edge coloring; corner-colored sets are complete");

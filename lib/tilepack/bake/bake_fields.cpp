@@ -111,11 +111,11 @@ void set_colors(BakeOptions& o, const std::string& text) {
       refuse_value(text, fmt::format("a whole number of 1 to {}, of corners; 1 to {} or HxV with {}",
                                      limits::most_corner_colors, limits::most_edge_colors,
                                      field("coloring", "edge")));
-    o.synth.colors = {0, 0, static_cast<int>(count)};
+    o.synth.colors = {0, 0, static_cast<int>(count), o.synth.colors.variants};
   } else {
     const Extent e =
         parsed_extent(text, 1, limits::most_edge_colors, ": H horizontal and V vertical colors", "HxV");
-    o.synth.colors = {static_cast<int>(e.width), static_cast<int>(e.height), 0};
+    o.synth.colors = {static_cast<int>(e.width), static_cast<int>(e.height), 0, o.synth.colors.variants};
   }
 }
 
@@ -209,12 +209,20 @@ std::string get_height_range(const BakeOptions& o) {
   return fmt::format("{},{}", o.material.height_range->low, o.material.height_range->high);
 }
 
+// Not recorded where there is one.
+std::string get_variants(const BakeOptions& o) {
+  return o.synth.colors.variants > 1 ? fmt::format("{}", o.synth.colors.variants) : "";
+}
+
 std::vector<BakeField> make_fields() {
   using O = BakeOptions;
   using enum FieldScope;
   using Type = BakeFieldType;
   FieldValue flatten = whole_number(0, 100, at(&O::flatten));
   flatten.get = get_flatten;
+  FieldValue variants = whole_number(
+      1, limits::most_variants, [](auto& o) -> auto& { return o.synth.colors.variants; });
+  variants.get = get_variants;
   return {
       {"tile-size", tiles, read_by(Type::extent, "N|WxH|auto", set_tile_size, get_tile_size),
        fmt::format(
@@ -228,6 +236,11 @@ std::vector<BakeField> make_fields() {
       {"colors", tiles, read_by(Type::extent, "N|HxV", set_colors, get_colors),
        fmt::format("colors of horizontal and vertical edges, 1 to {}, or of corners, 1 to {}",
                    limits::most_edge_colors, limits::most_corner_colors)},
+      {"variants", tiles, variants,
+       fmt::format("tiles of each combination of colors, with insides of their own, of which a hash picks "
+                   "one a cell, "
+                   "1 to {}",
+                   limits::most_variants)},
       {"set", tiles, with_consequence(choice(at(&O::set)), follow_set),
        "tiles made: every combination of colors, or two for each north and west color, for an index map"},
       {"interior", tiles, choice(at(&O::synth, &SynthOptions::interior)),

@@ -28,8 +28,9 @@ double squared(double x) {
 // Tiles that are synthesized: always the complete set.
 double made_tiles(const BakeOptions& o) {
   const ColorCounts& k = o.synth.colors;
-  return o.synth.coloring == Coloring::corner ? squared(squared(k.corner))
-                                              : squared(static_cast<double>(k.horizontal) * k.vertical);
+  return k.variants * (o.synth.coloring == Coloring::corner
+                           ? squared(squared(k.corner))
+                           : squared(static_cast<double>(k.horizontal) * k.vertical));
 }
 
 double packed_tiles(const BakeOptions& o) {

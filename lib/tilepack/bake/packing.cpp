@@ -87,13 +87,13 @@ Mapping mapping_for(const PackingPlan& plan, const TileSet& set, std::uint64_t s
   case MappingKind::mix:
     return mix_mapping(o.virtual_size, seed);
   case MappingKind::even:
-    return even_mapping(o.virtual_size, set.colors.corner, seed);
+    return even_mapping(o.virtual_size, set.colors.corner, seed, set.colors.variants);
   case MappingKind::index:
     break;
   }
   if (!is_complete_set(set.tiles)) return filled_index_mapping(o.virtual_size, set.tiles, seed);
   return index_mapping(has_even_pattern(set.colors.corner)
-                           ? even_mapping(o.virtual_size, set.colors.corner, seed)
+                           ? even_mapping(o.virtual_size, set.colors.corner, seed, set.colors.variants)
                            : mix_mapping(o.virtual_size, seed),
                        set.colors);
 }
@@ -146,7 +146,7 @@ PackingPlan planned_packing(const PackingOptions& options, const TileColors& til
         ErrorKind::usage, field("tile-size"),
         fmt::format(
             "{} tiles of {} x {} texels make a texture of {} x {}; a pack has at most {} texels, and {} a "
-            "side: take smaller tiles or fewer colors",
+            "side: take smaller tiles or fewer colors or variants",
             tile_count(tiles), tile_size.width, tile_size.height, texture.width, texture.height,
             most_texels_a_level, limits::longest_texture_side));
   return plan;

@@ -27,7 +27,7 @@ constexpr std::size_t checked_every = 61; // samples of a frame compared with th
 Mapping mapping_of_kind(const Pack& pack, MappingKind kind, VirtualSize size, std::uint64_t seed) {
   const Mapping mix = mix_mapping(size, seed);
   if (kind == MappingKind::mix) return mix;
-  if (kind == MappingKind::even) return even_mapping(size, pack.colors.corner, seed);
+  if (kind == MappingKind::even) return even_mapping(size, pack.colors.corner, seed, pack.colors.variants);
   if (kind == MappingKind::permutation) return permutation_mapping(size, pack.colors, seed);
   return index_mapping(mix, pack.colors);
 }
@@ -389,9 +389,7 @@ LookupFrame coherent_frame(std::int32_t tile_x, std::int32_t tile_y, int tile_si
 }
 
 LookupBench bench_lookups(const Pack& pack, int map, const BenchOptions& options, const Progress& progress) {
-  const ColorCounts& k = pack.colors;
-  const int complete = k.corner > 0 ? k.corner * k.corner * k.corner * k.corner
-                                    : k.horizontal * k.horizontal * k.vertical * k.vertical;
+  const int complete = combinations(pack.colors) * pack.colors.variants;
   if (tile_count(pack.tiles) != complete)
     throw Error(
         ErrorKind::usage, "pack",

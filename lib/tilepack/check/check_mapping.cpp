@@ -45,10 +45,11 @@ void check_permutation(const Pack& pack, std::vector<Issue>& issues) {
     issues.push_back({Rule::table_repeats_rows, "mapping.table",
                       fmt::format("{} entries repeat every {} columns, the texture has {}", n, n, size.width),
                       fmt::format("at least {} entries", size.width)});
-  for (const int colors : {pack.colors.horizontal, pack.colors.vertical, pack.colors.corner})
+  for (const int colors :
+       {pack.colors.horizontal, pack.colors.vertical, pack.colors.corner, pack.colors.variants})
     if (colors > 0 && n % colors != 0) {
       issues.push_back({Rule::table_biased, "mapping.table",
-                        fmt::format("{} entries for {} colors", n, colors),
+                        fmt::format("{} entries for {} colors or variants", n, colors),
                         fmt::format("a multiple of {}", colors)});
       break;
     }

@@ -48,13 +48,15 @@ int complete_id(const std::array<Digit, 4>& colors) {
 std::string combination(const Pack& pack, int id) {
   const int tiles = tile_count(pack.tiles);
   if (tiles == 0) return std::to_string(id);
+  const int variant = id / combinations(pack.colors);
   std::array<Digit, 4> colors = digits(pack, 0);
   for (int i = 3; i >= 0; --i) {
     colors[i].value = id % colors[i].count;
     id /= colors[i].count;
   }
-  return fmt::format("{} {}, {} {}, {} {}, {} {}", colors[0].name, colors[0].value, colors[1].name,
-                     colors[1].value, colors[2].name, colors[2].value, colors[3].name, colors[3].value);
+  return fmt::format("{} {}, {} {}, {} {}, {} {}{}", colors[0].name, colors[0].value, colors[1].name,
+                     colors[1].value, colors[2].name, colors[2].value, colors[3].name, colors[3].value,
+                     pack.colors.variants > 1 ? fmt::format(", variant {}", variant) : "");
 }
 
 bool placed_in_grid(const Layout& layout, const Cell& cell) {
@@ -166,7 +168,9 @@ void check_formula(const Pack& pack, std::vector<Issue>& issues) {
     if (cell.tile < 0 || cell.tile >= tile_count(pack.tiles) || !in_range(digits(pack, cell.tile))) continue;
     const EdgeTile& tile = (*edges)[cell.tile];
     const int column = tile_index_1d(tile.west, tile.east);
-    const int row = tile_index_1d(tile.north, tile.south);
+    const int variant = cell.tile / combinations(pack.colors);
+    const int row =
+        tile_index_1d(tile.north, tile.south) + variant * pack.colors.horizontal * pack.colors.horizontal;
     if (cell.column != column || cell.row != row)
       issues.push_back({Rule::cell_formula, fmt::format("layout, tile {}", cell.tile),
                         fmt::format("column {}, row {}", cell.column, cell.row),
@@ -187,11 +191,12 @@ std::vector<Issue> check_tiles(const Pack& pack) {
         issues.push_back({Rule::color_range, fmt::format("tile {}, {}", tile, digit.name),
                           fmt::format("color {}", digit.value), fmt::format("0 to {}", digit.count - 1)});
     if (!hashed || !in_range(colors)) continue;
-    const int id = complete_id(colors);
+    const int variant = std::min(tile / combinations(pack.colors), pack.colors.variants - 1);
+    const int id = complete_id(colors) + variant * combinations(pack.colors);
     const auto [other, fresh] = first_with.try_emplace(id, tile);
     if (!fresh)
       issues.push_back({Rule::tile_repeated, fmt::format("tiles {} and {}", other->second, tile),
-                        combination(pack, id), "each combination once"});
+                        combination(pack, id), "each combination once in each variant"});
     else if (id != tile)
       issues.push_back({Rule::tile_order, fmt::format("tile {}", tile),
                         fmt::format("the colors of number {}", id),
@@ -199,10 +204,7 @@ std::vector<Issue> check_tiles(const Pack& pack) {
   }
   if (!hashed) return issues;
 
-  const ColorCounts& k = pack.colors;
-  const long long wanted = coloring_of(pack.tiles) == Coloring::edge
-                               ? 1LL * k.horizontal * k.horizontal * k.vertical * k.vertical
-                               : 1LL * k.corner * k.corner * k.corner * k.corner;
+  const long long wanted = 1LL * combinations(pack.colors) * pack.colors.variants;
   const long long lacking = wanted - static_cast<long long>(first_with.size());
   if (lacking > 0) {
     int id = 0;

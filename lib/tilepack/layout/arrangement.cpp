@@ -124,11 +124,15 @@ std::vector<int> complete_grid(const TileColors& tiles, const RotatedScheme& sch
   const Layout layout = coloring_of(tiles) == Coloring::edge
                             ? tile_index_layout(std::get<std::vector<EdgeTile>>(tiles))
                             : de_bruijn_layout(std::get<std::vector<CornerTile>>(tiles));
-  if (layout.rows != scheme.n || layout.columns != scheme.n * scheme.squares) return {};
+  // Of two variants the second torus may as well lie beside the first.
+  const bool beside = layout.columns == scheme.n && layout.rows == 2 * scheme.n && scheme.squares == 2;
+  if (!beside && (layout.rows != scheme.n || layout.columns != scheme.n * scheme.squares)) return {};
   const RotatedLattice lattice(scheme);
   std::vector<int> tile_on(layout.cells.size());
-  for (const Cell& cell : layout.cells)
-    tile_on[static_cast<std::size_t>(lattice.site_at({cell.column, cell.row}))] = cell.tile;
+  for (const Cell& cell : layout.cells) {
+    const int second = beside && cell.row >= scheme.n ? scheme.n : 0;
+    tile_on[static_cast<std::size_t>(lattice.site_at({cell.column + second, cell.row - second}))] = cell.tile;
+  }
   return tile_on;
 }
 

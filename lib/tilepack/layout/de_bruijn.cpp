@@ -65,15 +65,19 @@ Layout de_bruijn_layout(const std::vector<CornerTile>& complete_set) {
       colors = std::max(colors, color + 1);
     }
   const int side = colors * colors;
+  const int combinations = side * side;
+  const int copies = whole_copies(complete_set.size(), combinations);
   Layout layout;
   layout.kind = LayoutKind::de_bruijn;
   layout.columns = side;
-  layout.rows = side;
+  layout.rows = copies * side;
 
-  std::vector<int> given(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), -1);
+  std::vector<int> given(static_cast<std::size_t>(copies) * static_cast<std::size_t>(combinations), -1);
   for (std::size_t id = 0; id < complete_set.size(); ++id) {
     const CornerTile& tile = complete_set[id];
-    int& first = given[static_cast<std::size_t>(id_in_complete_set(tile, colors))];
+    const std::size_t variant = id * static_cast<std::size_t>(copies) / complete_set.size();
+    int& first = given[variant * static_cast<std::size_t>(combinations) +
+                       static_cast<std::size_t>(id_in_complete_set(tile, colors))];
     if (first >= 0)
       throw Error(
           ErrorKind::invalid_content, "layout de-bruijn",
@@ -83,19 +87,21 @@ Layout de_bruijn_layout(const std::vector<CornerTile>& complete_set) {
     first = static_cast<int>(id);
   }
   layout.cells.resize(complete_set.size());
-  for (int row = 0; row < side; ++row)
+  for (int row = 0; row < layout.rows; ++row)
     for (int column = 0; column < side; ++column) {
       const int east = (column + 1) % side;
+      const int north = row % side;
       const int south = (row + 1) % side;
-      const CornerTile tile{de_bruijn_color(colors, column, row), de_bruijn_color(colors, east, row),
+      const CornerTile tile{de_bruijn_color(colors, column, north), de_bruijn_color(colors, east, north),
                             de_bruijn_color(colors, column, south), de_bruijn_color(colors, east, south)};
-      const int id = given[static_cast<std::size_t>(id_in_complete_set(tile, colors))];
+      const int id =
+          given[static_cast<std::size_t>(row / side * combinations + id_in_complete_set(tile, colors))];
       if (id < 0)
         throw Error(
             ErrorKind::invalid_content, "layout de-bruijn",
             fmt::format("no tile has nw {}, ne {}, sw {}, se {}; this layout needs all {} combinations "
                         "of {} corner colors; rotated and array do with fewer",
-                        tile.nw, tile.ne, tile.sw, tile.se, given.size(), colors));
+                        tile.nw, tile.ne, tile.sw, tile.se, combinations, colors));
       layout.cells[static_cast<std::size_t>(id)] = {id, column, row};
     }
   if (complete_set.empty())

@@ -18,7 +18,8 @@ namespace tilepack {
 /// K = 2 (see de_bruijn.cpp). Throws Error (usage) for other K.
 int de_bruijn_color(int corner_colors, int column, int row);
 
-/// The complete corner set in the de Bruijn torus of its colors. Throws Error: usage for more than 4 colors,
+/// The complete corner set in the de Bruijn torus of its colors; of variants, a complete set after the other, as many
+/// copies of the torus one below the other, which agree where they meet, and the whole wraps. Throws Error: usage for more than 4 colors,
 /// invalid_content naming the tile that is missing or there twice.
 Layout de_bruijn_layout(const std::vector<CornerTile>& complete_set);
 

@@ -47,14 +47,17 @@ Layout tile_index_layout(const std::vector<EdgeTile>& complete_set) {
   Layout layout;
   layout.kind = LayoutKind::tile_index;
   layout.columns = vertical * vertical;
-  layout.rows = horizontal * horizontal;
+  const int variant_rows = horizontal * horizontal;
+  const int copies = whole_copies(complete_set.size(), layout.columns * variant_rows);
+  layout.rows = copies * variant_rows;
 
   std::vector<int> taken(static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows),
                          -1);
   for (std::size_t id = 0; id < complete_set.size(); ++id) {
     const EdgeTile& tile = complete_set[id];
     const Cell cell{static_cast<int>(id), tile_index_1d(tile.west, tile.east),
-                    tile_index_1d(tile.north, tile.south)};
+                    tile_index_1d(tile.north, tile.south) +
+                        static_cast<int>(id) * copies / static_cast<int>(complete_set.size()) * variant_rows};
     int& owner = taken[static_cast<std::size_t>(cell.row * layout.columns + cell.column)];
     if (owner >= 0)
       throw Error(
@@ -69,7 +72,7 @@ Layout tile_index_layout(const std::vector<EdgeTile>& complete_set) {
   if (gap != taken.end() || taken.empty()) {
     const int place = static_cast<int>(gap - taken.begin());
     const ColorPair across = color_pair_at(layout.columns > 0 ? place % layout.columns : 0);
-    const ColorPair down = color_pair_at(layout.columns > 0 ? place / layout.columns : 0);
+    const ColorPair down = color_pair_at(layout.columns > 0 ? place / layout.columns % variant_rows : 0);
     throw Error(
         ErrorKind::invalid_content, "layout tile-index",
         fmt::format("no tile has north {}, east {}, south {}, west {}; this layout needs all {} "

@@ -31,7 +31,9 @@ int tile_index_1d(int a, int b);
 ColorPair color_pair_at(int index);
 
 /// The complete edge set on a Kv² × Kh² torus: column = TileIndex1D(west, east), row = TileIndex1D(north,
-/// south). [Wei04, Eq. 7], north and south swapped since our v grows down.
+/// south). [Wei04, Eq. 7], north and south swapped since our v grows down. Variants, a complete set after the other,
+/// lie on copies of that torus one below the other: row + variant · Kh². What lies below a copy's last row is its
+/// first row of colors again, so neighbours agree and the whole still wraps.
 Layout tile_index_layout(const std::vector<EdgeTile>& complete_set);
 
 } // namespace tilepack

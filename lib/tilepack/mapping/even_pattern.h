@@ -54,6 +54,20 @@ inline std::uint32_t even_color(std::uint32_t word, const int* pattern, std::uin
   return color < colors ? color : color - colors;
 }
 
+/// The variant of cell (x, y) of the block of its north-west corner, which has this word. `variants`:
+/// even_variants() of the pattern, by cell: the variant of the cell whose corner of least column and row is
+/// there. In a mirrored block that corner is the cell's other one.
+inline std::uint32_t even_variant(std::uint32_t word, const int* variants, std::uint32_t x, std::uint32_t y) {
+  constexpr std::uint32_t mask = even_pattern_side - 1;
+  const std::uint32_t mirrored_x = word >> 12 & 1u, mirrored_y = word >> 13 & 1u;
+  const std::uint32_t u = ((x + word) ^ (0u - mirrored_x)) - mirrored_x;
+  const std::uint32_t v = ((y + (word >> 6)) ^ (0u - mirrored_y)) - mirrored_y;
+  const bool exchanged = (word >> 14 & 1u) != 0;
+  const std::uint32_t column = (exchanged ? v : u) & mask;
+  const std::uint32_t row = (exchanged ? u : v) & mask;
+  return static_cast<std::uint32_t>(variants[row * even_pattern_side + column]);
+}
+
 inline std::uint32_t even_color(const MixKeys& keys, const int* pattern, std::uint32_t x, std::uint32_t y,
                                 std::uint32_t colors) {
   return even_color(even_word(keys, x, y), pattern, x, y, colors);

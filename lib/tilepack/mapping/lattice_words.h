@@ -29,13 +29,16 @@ struct LatticeWords {
   std::uint32_t corner_colored = 0; ///< 1: one family of colors, C, at corners; 0: H and V, on edges
   std::uint32_t width = 1;          ///< of the virtual texture in tiles, 1..2^31; any, not only powers of 2
   std::uint32_t height = 1;         ///< 1..2^31
-  std::uint32_t horizontal_colors = 0; ///< Kh, 1..8; of corners K
-  std::uint32_t vertical_colors = 0;   ///< Kv, 1..8; of corners K
-  MixKeys horizontal_keys;             ///< mix and even: of the family H; of corners C
-  MixKeys vertical_keys;               ///< mix: of the family V
-  std::uint32_t table_length = 0;      ///< permutation: n, 1..2^31; even: 64 * 64
-  const int* table = nullptr;          ///< permutation: P, entries 0..n-1; even: the pattern, entries 0..K-1
-  const int* ids = nullptr;            ///< index: width * height tile ids, row by row
+  std::uint32_t horizontal_colors = 0;  ///< Kh, 1..8; of corners K
+  std::uint32_t vertical_colors = 0;    ///< Kv, 1..8; of corners K
+  MixKeys horizontal_keys;              ///< mix and even: of the family H; of corners C
+  MixKeys vertical_keys;                ///< mix: of the family V
+  std::uint32_t table_length = 0;       ///< permutation: n, 1..2^31; even: 64 * 64
+  const int* table = nullptr;           ///< permutation: P, entries 0..n-1; even: the pattern, entries 0..K-1
+  const int* ids = nullptr;             ///< index: width * height tile ids, row by row
+  std::uint32_t variants = 1;           ///< V, 1..8, of each combination of colors; not for index
+  MixKeys variant_keys;                 ///< mix: of the cells' variants
+  const int* variant_pattern = nullptr; ///< even with V > 1: 64 * 64 variants, entries 0..V-1
 };
 
 /// A cell of the virtual texture, 0 <= x < width, 0 <= y < height.
@@ -112,18 +115,37 @@ inline CellColors colors_of_cell(const LatticeWords& w, LatticeCell cell) {
   return {corner_color(w, x, y), corner_color(w, x1, y), corner_color(w, x, y1), corner_color(w, x1, y1)};
 }
 
-/// The id, in the complete set of its colors, of the tile with these: they are its digits, bases Kh and Kv in
-/// turn. At most 8^4 - 1.
+/// The variant of a cell within the texture, 0..V-1: which of the tiles with its colors lies there. Not for index.
+inline std::uint32_t variant_of_cell(const LatticeWords& w, LatticeCell cell) {
+  const auto [x, y] = cell;
+  if (w.variants == 1) return 0;
+  if (w.kind == MappingKind::even)
+    return even_variant(even_word(w.horizontal_keys, x, y), w.variant_pattern, x, y);
+  if (w.kind == MappingKind::mix) return mix_color(w.variant_keys, x, y, w.variants);
+  return permuted(w, permuted(w, permuted(w, x) + y) + x) %
+         w.variants; // what H and C are taken from, and x again
+}
+
+/// The id, in the complete set of its colors, of the first tile with these: they are its digits, bases Kh and Kv
+/// in turn. At most 8^4 - 1.
 inline std::uint32_t id_in_complete_set(const LatticeWords& w, const CellColors& colors) {
   const std::uint32_t kh = w.horizontal_colors, kv = w.vertical_colors;
   return ((colors.a * kv + colors.b) * kh + colors.c) * kv + colors.d;
 }
 
-/// The id of the tile in a cell within the texture; hashed mappings are for complete sets.
+/// How many tiles a variant has: (Kh · Kv)², K⁴ of corners.
+inline std::uint32_t tiles_of_variant(const LatticeWords& w) {
+  const std::uint32_t pairs = w.horizontal_colors * w.vertical_colors;
+  return pairs * pairs;
+}
+
+/// The id of the tile in a cell within the texture; hashed mappings are for complete sets, whose variants stand one
+/// after the other.
 inline std::uint32_t tile_of_cell(const LatticeWords& w, LatticeCell cell) {
   if (w.kind == MappingKind::index) // a size_t: 2^26 cells at most are stored, but any may be asked for here
     return static_cast<std::uint32_t>(w.ids[static_cast<std::size_t>(cell.y) * w.width + cell.x]);
-  return id_in_complete_set(w, colors_of_cell(w, cell));
+  const std::uint32_t id = id_in_complete_set(w, colors_of_cell(w, cell));
+  return w.variants == 1 ? id : id + variant_of_cell(w, cell) * tiles_of_variant(w);
 }
 
 } // namespace tilepack

@@ -2,6 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/mapping/even_pattern.h"
+#include "tilepack/mapping/even_variants.h"
 #include "tilepack/mapping/mix_hash.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/numeric/wrap.h"
@@ -40,7 +41,7 @@ std::vector<int> permutation_table(int length, std::uint64_t seed) {
 Mapping permutation_mapping(VirtualSize size, const ColorCounts& colors, std::uint64_t seed) {
   check_size(size, limits::longest_permutation_side_made, "; for a larger texture take the mapping \"mix\"");
   std::int64_t unit = 1;
-  for (const int count : {colors.horizontal, colors.vertical, colors.corner})
+  for (const int count : {colors.horizontal, colors.vertical, colors.corner, colors.variants})
     if (count > 0) unit = std::lcm(unit, static_cast<std::int64_t>(count));
   const std::int64_t least = 2 * std::max(size.width, size.height);
   const std::int64_t length = (least + unit - 1) / unit * unit;
@@ -61,7 +62,7 @@ Mapping mix_mapping(VirtualSize size, std::uint64_t seed) {
   return mapping;
 }
 
-Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed) {
+Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed, int variants) {
   check_size(size, limits::longest_virtual_side, "");
   if (!has_even_pattern(corners))
     throw Error(
@@ -72,6 +73,7 @@ Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed) {
   mapping.kind = MappingKind::even;
   mapping.size = size;
   mapping.table = even_pattern(corners);
+  if (variants > 1) mapping.variants = even_variants(mapping.table, corners, variants);
   mapping.seed = seed;
   return mapping;
 }
@@ -105,6 +107,9 @@ LatticeWords lattice_words(const Mapping& mapping, const ColorCounts& colors) {
     words.horizontal_keys = mix_keys(mapping.seed, corners ? MixAxis::corner : MixAxis::horizontal);
     words.vertical_keys = mix_keys(mapping.seed, MixAxis::vertical);
   }
+  words.variants = static_cast<std::uint32_t>(colors.variants);
+  words.variant_keys = mix_keys(mapping.seed, MixAxis::variant);
+  words.variant_pattern = mapping.variants.data();
   words.table_length = static_cast<std::uint32_t>(mapping.table.size());
   words.table = mapping.table.data();
   words.ids = mapping.ids.data();

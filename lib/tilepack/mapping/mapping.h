@@ -9,7 +9,6 @@
 
 namespace tilepack {
 
-
 /// The virtual texture's size in tiles, each side 1..2^31. It wraps.
 struct VirtualSize {
   std::int64_t width = 0;
@@ -29,27 +28,33 @@ struct VirtualSize {
 ///   mix          the same lattice from a keyed integer hash, mapping/mix_hash.h: no table, no period
 ///   even         corners only: a pattern without near repeats, placed by the hash, mapping/even_pattern.h
 ///   index        a stored image of tile ids, one a cell
+///
+/// Where each combination of colors has V > 1 variants, a cell's own hash picks one, 0..V-1:
+///   permutation  W(x, y) = P[P[P[x] + y] + x] mod V
+///   mix          the hash with keys of its own
+///   even         a second pattern, of cells, which lays equal tiles far apart: mapping/even_variants.h
 struct Mapping {
   MappingKind kind = MappingKind::permutation;
   VirtualSize size;
-  std::vector<int> table; ///< permutation: a permutation of 0..n-1; even: the pattern, 64 * 64 colors
-  std::uint64_t seed = 0; ///< mix, even
-  std::vector<int> ids;   ///< index: size.width * size.height tile ids, row by row
+  std::vector<int> table;    ///< permutation: a permutation of 0..n-1; even: the pattern, 64 * 64 colors
+  std::uint64_t seed = 0;    ///< mix, even
+  std::vector<int> ids;      ///< index: size.width * size.height tile ids, row by row
+  std::vector<int> variants; ///< even with variants: 64 * 64 of them; else empty
 };
 
 /// 0..length-1 in an order shuffled by `seed`; length >= 1.
 std::vector<int> permutation_table(int length, std::uint64_t seed);
 
 /// A permutation mapping whose table is shuffled by `seed`. The table length n is the smallest multiple of
-/// the number of colors of each kind that is at least 2 * max(width, height): longer tables repeat no row
-/// within the texture, and `mod K` is then unbiased. Sides 1..4096: beyond, the table would be larger than a
+/// the number of colors of each kind, and of variants, that is at least 2 * max(width, height): longer tables
+/// repeat no row within the texture, and `mod K` is then unbiased. Sides 1..4096: beyond, the table would be larger than a
 /// mix is slow (Error, usage).
 Mapping permutation_mapping(VirtualSize size, const ColorCounts& colors, std::uint64_t seed);
 
 Mapping mix_mapping(VirtualSize size, std::uint64_t seed);
 
-/// `corners`: 2..4 colors (Error, usage).
-Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed);
+/// `corners`: 2..4 colors (Error, usage); `variants`: 1..8.
+Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed, int variants = 1);
 
 /// `mapping` written out cell by cell; at most 2^26 cells (Error, usage).
 Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors);

@@ -6,8 +6,8 @@
 
 namespace tilepack {
 
-/// Which family of lattice colors is asked for: each has its own keys.
-enum class MixAxis { horizontal = 0, vertical = 1, corner = 2 };
+/// Which family is asked for, of the lattice's colors or of the cells' variants: each has its own keys.
+enum class MixAxis { horizontal = 0, vertical = 1, corner = 2, variant = 3 };
 
 /// The keys of one family: four words of 32 bits drawn from the seed.
 struct MixKeys {

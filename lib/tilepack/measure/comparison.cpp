@@ -41,8 +41,10 @@ std::string size_text(Size size) {
 }
 
 std::string colors_text(const ColorCounts& colors) {
-  return colors.corner > 0 ? fmt::format("{} corner", colors.corner)
-                           : fmt::format("{} horizontal, {} vertical", colors.horizontal, colors.vertical);
+  const std::string variants = colors.variants > 1 ? fmt::format(", {} variants", colors.variants) : "";
+  return (colors.corner > 0 ? fmt::format("{} corner", colors.corner)
+                            : fmt::format("{} horizontal, {} vertical", colors.horizontal, colors.vertical)) +
+         variants;
 }
 
 void compare_maps(const std::vector<PackedMap>& a, const std::vector<PackedMap>& b, const std::string& prefix,

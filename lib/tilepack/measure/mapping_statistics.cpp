@@ -43,8 +43,7 @@ Field field(std::string name, VirtualSize window, int values, const std::functio
 std::vector<Field> fields(const Mapping& m, const ColorCounts& colors, VirtualSize window) {
   std::vector<Field> all;
   const bool by_corner = colors.corner > 0;
-  int tiles = by_corner ? colors.corner * colors.corner * colors.corner * colors.corner
-                        : colors.horizontal * colors.horizontal * colors.vertical * colors.vertical;
+  int tiles = combinations(colors) * colors.variants;
   if (m.kind == MappingKind::index) // of any set, complete or not
     for (const int id : m.ids) tiles = std::max(tiles, id + 1);
   all.push_back(field("tiles", window, tiles, [&](int x, int y) { return tile_at(m, colors, x, y); }));
@@ -55,7 +54,12 @@ std::vector<Field> fields(const Mapping& m, const ColorCounts& colors, VirtualSi
     f.bits_a_cell_in_rows = 2 * std::log2(colors.horizontal) + std::log2(colors.vertical);
     f.bits_a_cell_in_columns = std::log2(colors.horizontal) + 2 * std::log2(colors.vertical);
   }
+  f.bits_a_cell_in_rows += std::log2(colors.variants);
+  f.bits_a_cell_in_columns += std::log2(colors.variants);
   if (m.kind == MappingKind::index) return all;
+  if (colors.variants > 1)
+    all.push_back(field("variants", window, colors.variants,
+                        [&](int x, int y) { return tile_at(m, colors, x, y) / combinations(colors); }));
   if (by_corner) {
     all.push_back(field("corners", window, colors.corner,
                         [&](int x, int y) { return corner_tile_at(m, colors, x, y).nw; }));

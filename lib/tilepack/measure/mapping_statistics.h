@@ -25,10 +25,10 @@ struct PairCorrelation {
                        ///< looked at, 3 to 4 is chance
 };
 
-/// One family of values over a window of cells: the tiles, or the colors of the horizontal edges, the
-/// vertical edges or the corners they are made of.
+/// One family of values over a window of cells: the tiles, their variants, or the colors of the horizontal edges,
+/// the vertical edges or the corners they are made of.
 struct FamilyStatistics {
-  std::string name;                  ///< "tiles", "horizontal edges", "vertical edges", "corners"
+  std::string name;                  ///< "tiles", "variants", "horizontal edges", "vertical edges", "corners"
   std::vector<std::int64_t> counts;  ///< of each value
   double chi_square = 0;             ///< of the counts against equal ones
   int degrees = 0;                   ///< of freedom: the values less one

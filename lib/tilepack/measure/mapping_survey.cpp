@@ -97,7 +97,7 @@ std::vector<SurveyedMapping> mapping_survey(const Mapping& mapping, const ColorC
   lengths.push_back(static_cast<int>(std::max(size.width, size.height)) + 1);
   std::sort(lengths.begin(), lengths.end());
   for (const int length : lengths) compare_with(permutation_mapping_of_length(size, length, seed));
-  if (has_even_pattern(colors.corner)) compare_with(even_mapping(size, colors.corner, seed));
+  if (has_even_pattern(colors.corner)) compare_with(even_mapping(size, colors.corner, seed, colors.variants));
   compare_with(mix_mapping(size, seed));
 
   std::vector<SurveyedMapping> survey;

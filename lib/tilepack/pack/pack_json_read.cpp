@@ -257,17 +257,16 @@ std::vector<PackedMap> read_maps(const JsonCursor& list, const Textures& texture
   return maps;
 }
 
-// Rows of digits, a corner color each.
-std::vector<int> read_pattern(const JsonCursor& value, const ColorCounts& colors) {
-  if (colors.corner == 0) value.fail("of corner colors, but the tiles have edge colors; bake the pack again");
+// Rows of digits 0..values-1, one a corner or a cell.
+std::vector<int> read_pattern(const JsonCursor& value, int values, const char* of) {
   std::vector<int> pattern;
   value.array(even_pattern_side, even_pattern_side);
   for (std::size_t row = 0; row < even_pattern_side; ++row) {
     const std::string digits = value.item(row).text();
-    const auto legal = [&](char digit) { return digit >= '0' && digit < '0' + colors.corner; };
+    const auto legal = [&](char digit) { return digit >= '0' && digit < '0' + values; };
     if (digits.size() != even_pattern_side || !std::all_of(digits.begin(), digits.end(), legal))
-      value.item(row).fail(fmt::format("{}; a row is {} digits of 0 to {}, one a corner; bake the pack again",
-                                       value.item(row).shown(), even_pattern_side, colors.corner - 1));
+      value.item(row).fail(fmt::format("{}; a row is {} digits of 0 to {}, one a {}; bake the pack again",
+                                       value.item(row).shown(), even_pattern_side, values - 1, of));
     for (const char digit : digits) pattern.push_back(digit - '0');
   }
   return pattern;
@@ -297,10 +296,16 @@ Mapping read_mapping(const JsonCursor& value, const ColorCounts& colors, std::st
         static_cast<std::uint64_t>(value.member("seed").integer(0, static_cast<std::int64_t>(largest_seed)));
     break;
   case MappingKind::even:
-    value.only({"kind", "virtual_size", "seed", "pattern"});
+    value.only({"kind", "virtual_size", "seed", "pattern", "variants"});
     mapping.seed =
         static_cast<std::uint64_t>(value.member("seed").integer(0, static_cast<std::int64_t>(largest_seed)));
-    mapping.table = read_pattern(value.member("pattern"), colors);
+    if (colors.corner == 0)
+      value.member("pattern").fail("of corner colors, but the tiles have edge colors; bake the pack again");
+    mapping.table = read_pattern(value.member("pattern"), colors.corner, "corner");
+    if (const auto variants = value.find("variants"); variants && colors.variants == 1)
+      variants->fail("is there, but each combination of colors has one tile; remove the field");
+    if (colors.variants > 1)
+      mapping.variants = read_pattern(value.member("variants"), colors.variants, "cell");
     break;
   case MappingKind::index: {
     value.only({"kind", "virtual_size", "file"});
@@ -321,14 +326,13 @@ Mapping read_mapping(const JsonCursor& value, const ColorCounts& colors, std::st
 
 // The hashes answer with colors, and the id follows from them only in a complete set in its usual order.
 void check_complete(const JsonCursor& list, const TileColors& tiles, const ColorCounts& colors) {
-  const TileColors complete = coloring_of(tiles) == Coloring::edge
-                                  ? TileColors(complete_edge_set(colors.horizontal, colors.vertical))
-                                  : TileColors(complete_corner_set(colors.corner));
+  const TileColors complete = complete_set(colors);
   if (tiles != complete)
     list.fail(
-        fmt::format("holds {} tiles that are not the {} of the complete set in lexicographic order; only "
+        fmt::format("holds {} tiles that are not the {} of the complete set in lexicographic order{}; only "
                     "an index mapping can do with others",
-                    tile_count(tiles), tile_count(complete)));
+                    tile_count(tiles), tile_count(complete),
+                    colors.variants > 1 ? ", its variants one after the other" : ""));
 }
 
 void read_mips(const JsonCursor& value, Pack& pack) {
@@ -398,14 +402,16 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
         fmt::format("is {}, and this program reads 1; read the pack with a newer tilepack, or bake it again",
                     version.shown()));
   version.integer(1, 1);
-  root.only({"format", "version", "generator", "tile_size", "coloring", "colors", "tiles", "layout", "maps",
-             "mapping", "corner_pack", "mips", "synthesis"});
+  root.only({"format", "version", "generator", "tile_size", "coloring", "colors", "variants", "tiles",
+             "layout", "maps", "mapping", "corner_pack", "mips", "synthesis"});
   PackDescription result;
   Pack& pack = result.pack;
   pack.generator = read_generator(root.member("generator"));
   pack.tile_size = read_size(root.member("tile_size"), limits::largest_tile_side);
   const auto coloring = named<Coloring>(root.member("coloring"));
   pack.colors = read_colors(root.member("colors"), coloring);
+  if (const auto variants = root.find("variants"))
+    pack.colors.variants = variants->small_integer(2, limits::most_variants);
   pack.tiles = read_tiles(root.member("tiles"), coloring, pack.colors);
   pack.layout = read_layout(root.member("layout"), pack.tiles, pack.tile_size);
   read_mips(root.member("mips"), pack);
@@ -413,7 +419,8 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   pack.maps =
       read_maps(root.member("maps"), {pack.layout, pack.tile_size, pack.tile_levels}, result.map_files, used);
   pack.mapping = read_mapping(root.member("mapping"), pack.colors, result.index_file, used);
-  if (pack.mapping.kind != MappingKind::index) check_complete(root.member("tiles"), pack.tiles, pack.colors);
+  if (pack.mapping.kind != MappingKind::index || pack.colors.variants > 1)
+    check_complete(root.member("tiles"), pack.tiles, pack.colors);
   if (const auto corner = root.find("corner_pack"))
     pack.corner_pack = read_corner_pack(*corner, pack, result.corner_files, used);
   if (const auto synthesis = root.find("synthesis")) pack.synthesis = read_synthesis(*synthesis);

@@ -98,6 +98,18 @@ JsonValue maps_json(const std::vector<PackedMap>& maps, const std::vector<MapFil
   return list;
 }
 
+// A digit an entry of the even pattern, row by row.
+JsonValue digits_json(const std::vector<int>& pattern) {
+  JsonValue rows = JsonValue::array();
+  for (std::size_t row = 0; row < even_pattern_side; ++row) {
+    std::string digits;
+    for (std::size_t column = 0; column < even_pattern_side; ++column)
+      digits += static_cast<char>('0' + pattern[row * even_pattern_side + column]);
+    rows.push_back(digits);
+  }
+  return rows;
+}
+
 JsonValue mapping_json(const Mapping& mapping, const std::string& index_file) {
   JsonValue json = {{"kind", name_of(mapping.kind)},
                     {"virtual_size", JsonValue::array({mapping.size.width, mapping.size.height})}};
@@ -110,13 +122,8 @@ JsonValue mapping_json(const Mapping& mapping, const std::string& index_file) {
     break;
   case MappingKind::even:
     json["seed"] = mapping.seed;
-    json["pattern"] = JsonValue::array();
-    for (std::size_t row = 0; row < even_pattern_side; ++row) {
-      std::string digits;
-      for (std::size_t column = 0; column < even_pattern_side; ++column)
-        digits += static_cast<char>('0' + mapping.table[row * even_pattern_side + column]);
-      json["pattern"].push_back(digits);
-    }
+    json["pattern"] = digits_json(mapping.table);
+    if (!mapping.variants.empty()) json["variants"] = digits_json(mapping.variants);
     break;
   case MappingKind::index:
     json["file"] = index_file;
@@ -194,7 +201,8 @@ PackDescription described(const Pack& pack) {
   bare.tiles = pack.tiles;
   bare.layout = pack.layout;
   bare.maps = without_levels(pack.maps);
-  bare.mapping = {pack.mapping.kind, pack.mapping.size, pack.mapping.table, pack.mapping.seed, {}};
+  bare.mapping = {pack.mapping.kind,    pack.mapping.size, pack.mapping.table, pack.mapping.seed, {},
+                  pack.mapping.variants};
   bare.mip_mode = pack.mip_mode;
   bare.guard = pack.guard;
   bare.tile_levels = pack.tile_levels;
@@ -221,6 +229,7 @@ std::string pack_json(const PackDescription& description) {
   json["colors"] = edge
                        ? JsonValue{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
                        : JsonValue{{"corner", pack.colors.corner}};
+  if (pack.colors.variants > 1) json["variants"] = pack.colors.variants;
   json["tiles"] = tiles_json(pack.tiles);
   json["layout"] = layout_json(pack.layout, pack.tile_size);
   json["maps"] = maps_json(pack.maps, description.map_files);

@@ -241,10 +241,10 @@ WayOut way_to_variety(const BakeFacts& facts) {
     return {held < limit::tiles_held_fair ? "" : " A larger sample or smaller tiles show more.",
             std::nullopt};
   if (more > (corner ? limits::most_corner_colors : limits::most_edge_colors)) return {};
-  const int complete = corner ? facts.tiles : k.horizontal * k.horizontal * k.vertical * k.vertical;
+  const bool sequential = facts.tiles < combinations(k);
   const Cure cure{"colors", std::to_string(more)};
   return {fmt::format(" {} shows more, in {} tiles.", shown(cure),
-                      facts.tiles == complete ? more * more * more * more : 2 * more * more),
+                      sequential ? 2 * more * more : k.variants * more * more * more * more),
           cure};
 }
 

@@ -153,8 +153,10 @@ std::string summary_text(const PackSummary& summary) {
   const std::string colors = edge_colored(pack) ? fmt::format("{} horizontal and {} vertical edge colors",
                                                               pack.colors.horizontal, pack.colors.vertical)
                                                 : fmt::format("{} corner colors", pack.colors.corner);
-  std::string text = fmt::format("{}\ntiles     {} of {} x {} texels, {}\n", summary.subject,
-                                 tile_count(pack.tiles), tile.width, tile.height, colors);
+  const std::string variants =
+      pack.colors.variants > 1 ? fmt::format(", {} variants of each combination", pack.colors.variants) : "";
+  std::string text = fmt::format("{}\ntiles     {} of {} x {} texels, {}{}\n", summary.subject,
+                                 tile_count(pack.tiles), tile.width, tile.height, colors, variants);
   const Size texture = texture_size(pack.layout, tile, 0);
   text +=
       fmt::format("layout    {} = {} x {} texels\n", layout_text(pack.layout), texture.width, texture.height);

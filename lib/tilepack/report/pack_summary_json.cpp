@@ -158,6 +158,7 @@ std::string summary_json(const PackSummary& summary) {
   JsonValue colors =
       edge ? JsonValue{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
            : JsonValue{{"corner", pack.colors.corner}};
+  if (pack.colors.variants > 1) colors["variants"] = pack.colors.variants;
   JsonValue options = JsonValue::object();
   for (const auto& [name, value] : pack.generator.options) options[name] = value;
   const std::uint64_t in_memory = bytes_in_memory(pack, description);

@@ -193,8 +193,8 @@ void FastSampler::State::take_layers(const Pack& pack, int map) {
 void FastSampler::State::take_mapping(const Pack& pack) {
   if (pack.layout.kind == LayoutKind::rotated)
     throw Error(ErrorKind::usage, "layout",
-                "'rotated' is not one the fast sampler looks up; bake with " +
-                    field("layout", "tile-index") + ", de-bruijn or array, or use the reference sampler");
+                "'rotated' is not one the fast sampler looks up; bake with " + field("layout", "tile-index") +
+                    ", de-bruijn or array, or use the reference sampler");
   mapping = pack.mapping;
   lookup.emplace(pack, mapping);
   tables.lookup = &lookup->words();
@@ -233,7 +233,8 @@ TexelStorage FastSampler::storage() const {
 }
 
 std::size_t FastSampler::bytes() const {
-  const std::size_t entries = state->mapping.table.size() + state->mapping.ids.size();
+  const std::size_t entries =
+      state->mapping.table.size() + state->mapping.ids.size() + state->mapping.variants.size();
   const std::size_t by_tile = state->lookup ? state->lookup->bytes() : 0;
   return state->texels.size() + entries * sizeof(std::int32_t) + by_tile;
 }

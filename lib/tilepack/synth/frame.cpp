@@ -24,7 +24,8 @@ FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, 
     for (int first = 0; first < k; ++first)
       for (int second = 0; second < k; ++second) shape.horizontal.push_back({first, second});
     shape.vertical = shape.horizontal;
-    for (const CornerTile& t : complete_corner_set(k)) {
+    const TileColors tiles = complete_set(options.colors);
+    for (const CornerTile& t : std::get<std::vector<CornerTile>>(tiles)) {
       const BorderColors b = borders_of(t, k); // indices of shape.horizontal and vertical
       shape.tiles.push_back({b.north, b.east, b.south, b.west});
     }
@@ -32,7 +33,8 @@ FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, 
     shape.corners = 1;
     shape.horizontal.resize(static_cast<std::size_t>(options.colors.horizontal));
     shape.vertical.resize(static_cast<std::size_t>(options.colors.vertical));
-    for (const EdgeTile& t : complete_edge_set(options.colors.horizontal, options.colors.vertical))
+    const TileColors tiles = complete_set(options.colors);
+    for (const EdgeTile& t : std::get<std::vector<EdgeTile>>(tiles))
       shape.tiles.push_back({t.north, t.east, t.south, t.west});
   }
   return shape;

@@ -167,11 +167,7 @@ void repair_tiles(const SearchSpace& space, const MatchLevels& levels, const Fra
 }
 
 SourceMap source_map(const SynthOptions& options, std::vector<SourceCanvas> tiles) {
-  SourceMap result{options.tile_size, options.colors, {}, {}, options.guard};
-  if (options.coloring == Coloring::corner)
-    result.tiles = complete_corner_set(options.colors.corner);
-  else
-    result.tiles = complete_edge_set(options.colors.horizontal, options.colors.vertical);
+  SourceMap result{options.tile_size, options.colors, complete_set(options.colors), {}, options.guard};
   for (auto& tile : tiles) result.texels.push_back(std::move(tile.texels));
   return result;
 }

@@ -23,7 +23,8 @@ inline constexpr auto enum_names<Construction> =
 struct SynthOptions {
   Size tile_size{128, 128}; ///< texels, each side 4..4096 and at most the sample's
   Coloring coloring = Coloring::edge;
-  ColorCounts colors{2, 2, 0}; ///< edge: horizontal, vertical 1..8; corner: corner 1..4
+  ColorCounts colors{
+      2, 2, 0}; ///< edge: horizontal, vertical 1..8; corner: corner 1..4; variants 1..8, of framed tiles
   Construction interior = Construction::framed;
   int guard = 0;  ///< texels either side of an edge identical in all tiles of its color, 0..tile/8
   int effort = 5; ///< 0..9: time for quality

@@ -33,6 +33,14 @@ void require_valid(const SynthOptions& options) {
                   "quilt is made for edge coloring only; use " + field("interior", "patch") + " or " +
                       field("coloring", "edge"));
   }
+  require_in_range("variants", options.colors.variants, 1, limits::most_variants,
+                   "2 show half as many repeats");
+  if (options.colors.variants > 1 && options.interior == Construction::quilt)
+    throw Error(
+        ErrorKind::usage, field("variants"),
+        fmt::format(
+            "{}, but quilted tiles of equal colors are equal: they have no inside of their own; use {}",
+            options.colors.variants, field("interior", "patch")));
   const int smaller_side = std::min(options.tile_size.width, options.tile_size.height);
   require_in_range("guard", options.guard, 0, smaller_side / limits::guard_share_made,
                    "a guard takes at most an eighth of the tile");

@@ -25,6 +25,9 @@ inline constexpr int most_edge_colors = 8;
 /// Colors of corners, for whose 256 tiles a torus is known (layout/de_bruijn.h), and even patterns (mapping/even_pattern.h).
 inline constexpr int most_corner_colors = 4;
 
+/// Insides of every combination of colors. The even pattern writes them as digits.
+inline constexpr int most_variants = 8;
+
 /// Tiles of a set, and so cells of a layout and layers of an array: the complete set of 8 × 8 edge colors.
 inline constexpr int most_tiles = most_edge_colors * most_edge_colors * most_edge_colors * most_edge_colors;
 

@@ -1,6 +1,9 @@
 #include "tilepack/tileset/tile_colors.h"
 
+#include "tilepack/tileset/limits.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace tilepack {
 
@@ -22,6 +25,44 @@ std::vector<CornerTile> complete_corner_set(int corner_colors) {
   return tiles;
 }
 
+namespace {
+
+template <typename Tile>
+TileColors repeated(const std::vector<Tile>& set, int times) {
+  std::vector<Tile> tiles;
+  for (int i = 0; i < times; ++i) tiles.insert(tiles.end(), set.begin(), set.end());
+  return tiles;
+}
+
+// How many complete sets of these colors the tiles are, one after the other; 0 where they are anything else.
+// Counting first: the complete set of the colors at hand may be far larger than the tiles, or than an int.
+int copies_of_complete_set(const TileColors& tiles, ColorCounts k) {
+  const long long one = k.corner > 0 ? 1LL * k.corner * k.corner * k.corner * k.corner
+                                     : 1LL * k.horizontal * k.horizontal * k.vertical * k.vertical;
+  const long long count = tile_count(tiles);
+  if (count == 0 || one > count || count % one != 0 || count / one > limits::most_variants) return 0;
+  k.variants = static_cast<int>(count / one);
+  return tiles == complete_set(k) ? k.variants : 0;
+}
+
+} // namespace
+
+int combinations(const ColorCounts& k) {
+  return k.corner > 0 ? k.corner * k.corner * k.corner * k.corner
+                      : k.horizontal * k.horizontal * k.vertical * k.vertical;
+}
+
+int whole_copies(std::size_t tiles, int combinations) {
+  const auto one = static_cast<std::size_t>(combinations);
+  if (combinations <= 0 || tiles == 0 || tiles % one != 0 || tiles / one > limits::most_variants) return 1;
+  return static_cast<int>(tiles / one);
+}
+
+TileColors complete_set(const ColorCounts& k) {
+  return k.corner > 0 ? repeated(complete_corner_set(k.corner), k.variants)
+                      : repeated(complete_edge_set(k.horizontal, k.vertical), k.variants);
+}
+
 int id_in_complete_set(const EdgeTile& tile, int horizontal_colors, int vertical_colors) {
   return ((tile.north * vertical_colors + tile.east) * horizontal_colors + tile.south) * vertical_colors +
          tile.west;
@@ -41,18 +82,12 @@ ColorCounts color_counts(const TileColors& tiles) {
   else
     for (const CornerTile& t : std::get<std::vector<CornerTile>>(tiles))
       counts.corner = std::max({counts.corner, t.nw + 1, t.ne + 1, t.sw + 1, t.se + 1});
+  counts.variants = std::max(1, copies_of_complete_set(tiles, counts));
   return counts;
 }
 
 bool is_complete_set(const TileColors& tiles) {
-  const ColorCounts k = color_counts(tiles);
-  const bool edge = coloring_of(tiles) == Coloring::edge;
-  // Counting first: the complete set of the colors at hand may be far larger than the set.
-  const long long complete = edge ? 1LL * k.horizontal * k.horizontal * k.vertical * k.vertical
-                                  : 1LL * k.corner * k.corner * k.corner * k.corner;
-  if (complete != tile_count(tiles)) return false;
-  return tiles == (edge ? TileColors(complete_edge_set(k.horizontal, k.vertical))
-                        : TileColors(complete_corner_set(k.corner)));
+  return copies_of_complete_set(tiles, color_counts(tiles)) > 0;
 }
 
 int tile_count(const TileColors& tiles) {

@@ -2,6 +2,7 @@
 
 #include "tilepack/numeric/enum_names.h"
 
+#include <cstddef>
 #include <variant>
 #include <vector>
 
@@ -44,11 +45,12 @@ struct CornerTile {
 };
 
 /// How many colors a set uses: horizontal and vertical for edge coloring, corner for corner coloring; the
-/// others 0.
+/// others 0. And how many variants each combination of them has: tiles of equal colors with insides of their own.
 struct ColorCounts {
   int horizontal = 0; ///< Kh, 1..8: colors of north and south edges
   int vertical = 0;   ///< Kv, 1..8: colors of west and east edges
   int corner = 0;     ///< K, 1..4
+  int variants = 1;   ///< V, 1..8; more than 1 only of complete sets
   bool operator==(const ColorCounts&) const = default;
 };
 
@@ -60,15 +62,27 @@ using TileColors = std::variant<std::vector<EdgeTile>, std::vector<CornerTile>>;
 std::vector<EdgeTile> complete_edge_set(int horizontal_colors, int vertical_colors);
 std::vector<CornerTile> complete_corner_set(int corner_colors);
 
-/// The id of a tile in its complete set.
+/// How many combinations of these colors there are: (Kh · Kv)² or K⁴.
+int combinations(const ColorCounts& colors);
+
+/// The complete set of these counts: its variants one after the other, each a complete set as above, so that
+/// id = variant · combinations + id of the colors.
+TileColors complete_set(const ColorCounts& colors);
+
+/// How many complete sets of so many combinations `tiles` tiles may be, one after the other: 1 where their number
+/// is no multiple of it, or of more than 8.
+int whole_copies(std::size_t tiles, int combinations);
+
+/// The id of a tile in its complete set, of the first variant.
 int id_in_complete_set(const EdgeTile& tile, int horizontal_colors, int vertical_colors);
 int id_in_complete_set(const CornerTile& tile, int corner_colors);
 
-/// The smallest counts that hold all colors of the tiles.
+/// The smallest counts that hold all colors of the tiles; variants where they are the complete set of these
+/// counts, else 1.
 ColorCounts color_counts(const TileColors& tiles);
 
-/// True for a complete set of these counts in its usual order, which is what lets a hash of colors find a
-/// tile.
+/// True for a complete set of these counts in its usual order, with 1 to 8 variants, which is what lets a hash
+/// of colors find a tile.
 bool is_complete_set(const TileColors& tiles);
 
 int tile_count(const TileColors& tiles);
