@@ -3,10 +3,10 @@
 #include "jobs.h"
 
 #include "tilepack/bake/output_check.h"
-#include "tilepack/bake/text_file.h"
 #include "tilepack/bench/bench.h"
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/staged_outputs.h"
 #include "tilepack/report/bench_page.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,10 @@ public:
     for (int attempt = 0; attempt < 16; ++attempt) {
       path = fs::temp_directory_path() / fmt::format("tilepack-bench-{:08x}", random());
       std::error_code fault;
-      if (fs::create_directory(path, fault)) return;
+      const StepOnDisk step;
+      if (!fs::create_directory(path, fault)) continue;
+      unfinished = UnfinishedOutput(path);
+      return;
     }
     throw Error(ErrorKind::cannot_write, fs::temp_directory_path().string(),
                 "no temporary folder can be made there; set TMPDIR, or use --quick, which needs none");
@@ -42,6 +45,9 @@ public:
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   fs::path path;
+
+private:
+  UnfinishedOutput unfinished;
 };
 
 } // namespace
@@ -59,7 +65,9 @@ int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
   if (options.large) scratch.emplace();
   const Bench bench = measured_bench(pack, map, fs::path(a.pack).filename().string(), a.lookups, options,
                                      scratch ? scratch->path : fs::path(), console.progress());
-  if (!a.report.empty()) write_text_file(a.report, bench_page(bench));
+  StagedOutputs outputs;
+  if (!a.report.empty()) outputs.add_text(a.report, bench_page(bench));
+  outputs.commit(console.progress());
   console.print(a.format == "json"  ? bench_json(bench)
                 : a.format == "csv" ? bench_csv(bench)
                                     : bench_text(bench));

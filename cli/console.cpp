@@ -57,6 +57,14 @@ void Console::line(std::string_view word, const char* color, std::string_view me
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+void Console::last_note(std::string_view message) const {
+  if (quiet) return;
+  const std::string text =
+      fmt::format("{}{}: {}\n", terminal ? "\r\033[K" : "", command_name, printable(message));
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
 Progress Console::progress() {
   if (kept) return told;
   return [this](std::string_view stage, double done) {

@@ -34,6 +34,9 @@ public:
   void warn(std::string_view message);
   void error(std::string_view message);
 
+  /// A note from another thread than the one that uses the console, just before the program ends.
+  void last_note(std::string_view message) const;
+
   /// For the stages. Also the place where Ctrl-C takes effect: it throws Interrupted, and what is half done
   /// is undone on the way out. The console must outlive it.
   Progress progress();

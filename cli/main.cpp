@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -102,16 +103,26 @@ int run(const std::vector<std::string>& arguments, Console& console) {
 int guarded_run(const std::vector<std::string>& arguments) {
   const bool has_verb = !arguments.empty() && find_verb(arguments[0]) != nullptr;
   Console console(has_verb ? "tilepack " + arguments[0] : "tilepack");
+  std::atomic_flag said;
+  const InterruptWatch watch([&](bool something_is_in_place) {
+    if (!said.test_and_set())
+      console.last_note(something_is_in_place ? "interrupted; what was not finished is left out"
+                                              : "interrupted; nothing was written");
+  });
   try {
     return run(arguments, console);
   } catch (const Interrupted& interrupt) {
-    console.note(std::string("interrupted; ") + interrupt.left);
+    if (!said.test_and_set()) console.note(std::string("interrupted; ") + interrupt.left);
   } catch (const Error& error) {
     console.error(error.message(FieldSpelling::option));
     return exit_code(error.kind());
   } catch (const std::bad_alloc&) {
     console.error("out of memory; smaller tiles, fewer colors or a smaller image need less");
     return exit_code(ErrorKind::internal);
+  } catch (const std::filesystem::filesystem_error& error) {
+    console.error(fmt::format("{}: {}; check the path and its permissions", error.path1().string(),
+                              error.code().message()));
+    return exit_code(ErrorKind::cannot_read);
   } catch (const std::exception& error) {
     console.error(std::string("internal fault: ") + error.what());
     return exit_code(ErrorKind::internal);

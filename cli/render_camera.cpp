@@ -3,6 +3,7 @@
 #include "value_check.h"
 
 #include "tilepack/image/image_file.h"
+#include "tilepack/pack/staged_outputs.h"
 #include "tilepack/scanline/mesh.h"
 #include "tilepack/scanline/view_render.h"
 
@@ -146,13 +147,15 @@ int render_camera(const CameraArguments& arguments, const Texture& texture, bool
 
   const Size size = renderer.size();
   const Progress progress = console.progress();
-  ImageWriter writer(output, size, renderer.channels(), target.depth, target.encoding);
+  StagedOutputs outputs;
+  ImageWriter writer(outputs.add_file(output), size, renderer.channels(),
+                     usual_format(target.depth, target.encoding));
   for (int row = 0; row < size.height; row += band_rows) {
     report(progress, "render", static_cast<double>(row) / size.height);
     writer.write(renderer.rows(row, std::min(band_rows, size.height - row)));
   }
   writer.finish();
-  report(progress, "render", 1.0);
+  outputs.commit(progress);
   return 0;
 }
 

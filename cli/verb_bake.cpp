@@ -8,7 +8,6 @@
 #include "tilepack/bake/map_kinds.h"
 #include "tilepack/bake/material_read.h"
 #include "tilepack/bake/preset.h"
-#include "tilepack/bake/text_file.h"
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/pack_summary.h"
 #include "tilepack/tileset/material_map.h"
@@ -121,11 +120,11 @@ int run_bake(BakeArguments& arguments, Console& console) {
   };
   watch.note = [&](std::string_view line) { console.note(spelled(line, FieldSpelling::option)); };
   watch.made = [&](const BakedJob& baked) { story.facts = bake_facts(baked.made, baked.samples); };
-  const BakedJob baked = run(job, watch);
-  if (!job.report.empty()) {
+  watch.page = [&](const BakedJob& baked) {
     story.stages = baked.stages;
-    write_text_file(job.report, bake_page(story, baked.made, baked.samples));
-  }
+    return bake_page(story, baked.made, baked.samples);
+  };
+  const BakedJob baked = run(job, watch);
   if (arguments.printed.json())
     console.print(made_json(baked.description, job.folder, &story.facts));
   else if (!console.quiet || arguments.printed.asked_for())

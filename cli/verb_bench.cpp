@@ -4,9 +4,9 @@
 #include "verb.h"
 
 #include "tilepack/bake/output_check.h"
-#include "tilepack/bake/text_file.h"
 #include "tilepack/bench/span_bench.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/staged_outputs.h"
 #include "tilepack/report/span_bench_page.h"
 
 #include <memory>
@@ -27,7 +27,9 @@ int bench_spans(const LookupBenchArguments& a, Console& console) {
   std::optional<Pack> pack;
   if (!a.pack.empty()) pack = read_pack(a.pack);
   const SpanBench bench = span_bench(pack ? &*pack : nullptr, a.quick, console.progress());
-  if (!a.report.empty()) write_text_file(a.report, span_bench_page(bench));
+  StagedOutputs outputs;
+  if (!a.report.empty()) outputs.add_text(a.report, span_bench_page(bench));
+  outputs.commit(console.progress());
   console.print(a.format == "json" ? span_bench_json(bench) : span_bench_text(bench));
   return 0;
 }

@@ -3,10 +3,10 @@
 #include "verb.h"
 
 #include "tilepack/bake/output_check.h"
-#include "tilepack/bake/text_file.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/measure/comparison.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/staged_outputs.h"
 
 #include <fmt/format.h>
 
@@ -34,12 +34,13 @@ bool names_pack(const std::string& name) {
   return std::filesystem::is_directory(name, unused) || std::filesystem::path(name).extension() == ".json";
 }
 
-void write_picture(const CompareArguments& arguments, const ImageFile& a, const ImageFile& b) {
+void add_picture(StagedOutputs& outputs, const CompareArguments& arguments, const ImageFile& a,
+                 const ImageFile& b) {
   if (a.image.size() != b.image.size() || a.image.channels() != b.image.channels())
     throw Error(ErrorKind::invalid_content, "--picture",
                 "the images differ in size or channels; none is written");
-  write_image(arguments.picture, difference_picture(a.image, b.image, arguments.gain), Depth::u8,
-              Encoding::srgb);
+  write_image(outputs.add_file(arguments.picture), difference_picture(a.image, b.image, arguments.gain),
+              usual_format(Depth::u8, Encoding::srgb));
 }
 
 int run_compare(const CompareArguments& arguments, Console& console) {
@@ -63,7 +64,9 @@ int run_compare(const CompareArguments& arguments, Console& console) {
     const ImageFile b = read_noted(arguments.b, arguments.reading, Role::color, console);
     report(progress, "comparing", 0.0);
     comparison = compared(a, b);
-    if (!arguments.picture.empty()) write_picture(arguments, a, b);
+    StagedOutputs outputs;
+    if (!arguments.picture.empty()) add_picture(outputs, arguments, a, b);
+    outputs.commit(progress);
   }
   comparison.a = arguments.a;
   comparison.b = arguments.b;

@@ -2,13 +2,13 @@
 #include "verb.h"
 
 #include "tilepack/bake/output_check.h"
-#include "tilepack/bake/text_file.h"
 #include "tilepack/error/nearest_name.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/mapping/index_json.h"
-#include "tilepack/pack/pack_folder_read.h"
+#include "tilepack/pack/pack_folder.h"
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/staged_outputs.h"
 #include "tilepack/report/mapping_picture.h"
 #include "tilepack/report/pack_picture.h"
 #include "tilepack/report/pack_summary.h"
@@ -49,13 +49,13 @@ void check_outputs_of(const InspectArguments& a) {
                 files_of_pack(a.pack));
 }
 
-void write_drawing(const OutputFile& output, const VectorDrawing& drawing) {
+void add_drawing(StagedOutputs& outputs, const OutputFile& output, const VectorDrawing& drawing) {
   const std::string& file = output.file;
   const std::string extension = fs::path(file).extension().string();
   if (extension == ".svg")
-    write_text_file(file, svg(drawing));
+    outputs.add_text(file, svg(drawing));
   else if (extension == ".png")
-    write_image(file, rasterised(drawing), Depth::u8, Encoding::srgb);
+    write_image(outputs.add_file(file), rasterised(drawing), usual_format(Depth::u8, Encoding::srgb));
   else
     throw Error(ErrorKind::usage, output.where, without_ending(file, ".png or .svg"));
 }
@@ -64,20 +64,23 @@ int run_inspect_mapping(const InspectArguments& arguments, Console& console) {
   check_outputs_of(arguments);
   const Pack pack = read_pack(arguments.pack);
   const auto survey = mapping_survey(pack.mapping, pack.colors, pack.generator.seed);
+  StagedOutputs outputs;
   if (!arguments.picture.empty())
-    write_drawing({"--picture", arguments.picture}, mapping_survey_picture(survey, pack.colors));
+    add_drawing(outputs, {"--picture", arguments.picture}, mapping_survey_picture(survey, pack.colors));
+  outputs.commit(console.progress());
   console.print(arguments.format == "json" ? survey_json(survey) : survey_text(survey));
   return 0;
 }
 
 int run_inspect(const InspectArguments& arguments, Console& console) {
   check_outputs_of(arguments);
-  PackSummary summary{arguments.pack, read_pack_description(arguments.pack), {}, {}};
-  const fs::path json = pack_json_of(arguments.pack);
-  std::vector<std::string> files = summary.description.all_files();
-  files.push_back(json.filename().string());
-  summary.file_bytes = bytes_of_files(folder_of(json), files);
-  const Pack pack = read_pack(arguments.pack);
+  auto [summary, pack] = reading_pack(arguments.pack, [&](const PackFolder& folder) {
+    PackSummary read{arguments.pack, folder.description(), {}, {}};
+    std::vector<std::string> files = read.description.all_files();
+    files.push_back(folder.json_path().filename().string());
+    read.file_bytes = folder.bytes_of(files);
+    return std::pair(std::move(read), read_pack(folder));
+  });
   PackPictureOptions options;
   options.map = map_called(pack, arguments.map);
   if (arguments.level && *arguments.level >= pack.tile_levels)
@@ -85,15 +88,21 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
                 fmt::format("{}; the pack has levels 0 to {}", *arguments.level, pack.tile_levels - 1));
   options.level = arguments.level;
   options.marks = !arguments.bare;
+  StagedOutputs outputs;
+  const Progress progress = console.progress();
+  report(progress, "drawing", 0.0);
   if (!arguments.picture.empty())
-    write_drawing({"--picture", arguments.picture}, pack_picture(pack, options));
-  if (!arguments.index_map.empty()) write_text_file(arguments.index_map, index_map_json(pack.mapping));
+    add_drawing(outputs, {"--picture", arguments.picture}, pack_picture(pack, options));
+  if (!arguments.index_map.empty()) outputs.add_text(arguments.index_map, index_map_json(pack.mapping));
   if (!arguments.corner_picture.empty())
-    write_drawing({"--corner-picture", arguments.corner_picture}, corner_picture(pack, options));
+    add_drawing(outputs, {"--corner-picture", arguments.corner_picture}, corner_picture(pack, options));
+  report(progress, "drawing", 0.5);
   if (!arguments.preview.empty())
-    write_drawing({"--preview", arguments.preview},
-                  expansion_picture(pack, arguments.tiles, arguments.tiles, options));
+    add_drawing(outputs, {"--preview", arguments.preview},
+                expansion_picture(pack, arguments.tiles, arguments.tiles, options));
+  report(progress, "measuring", 0.8);
   summary.seams = seam_figures(pack, options.map, 0, arguments.worst);
+  outputs.commit(progress);
   console.print(arguments.format == "json" ? summary_json(summary) : summary_text(summary));
   return 0;
 }

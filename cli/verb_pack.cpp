@@ -70,6 +70,7 @@ int run_pack(PackArguments& arguments, Console& console) {
   const std::string now = arguments.printed.settle(arguments.fields);
   const JobLimit limit(arguments.jobs);
   check_pack_folder_for(arguments.folder, arguments.tiles);
+  if (const std::string note = replacing_note(arguments.folder); !note.empty()) console.note(note);
   const TileColors tiles =
       parsed_color_list(read_text_file(arguments.colors, "the list of colors"), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);

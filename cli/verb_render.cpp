@@ -9,6 +9,7 @@
 #include "tilepack/mip/level_size.h"
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/staged_outputs.h"
 #include "tilepack/pack/stored_format_for.h"
 #include "tilepack/sampler/pack_texture.h"
 #include "tilepack/sampler/render.h"
@@ -144,13 +145,15 @@ int run_render(const RenderArguments& arguments, Console& console) {
   const int band = static_cast<int>(std::max<std::size_t>(1, band_values / row_values));
 
   const Progress progress = console.progress();
-  ImageWriter writer(arguments.output, size, packed.channels, target.depth, target.encoding);
+  StagedOutputs outputs;
+  ImageWriter writer(outputs.add_file(arguments.output), size, packed.channels,
+                     usual_format(target.depth, target.encoding));
   for (int row = 0; row < size.height; row += band) {
     report(progress, "render", static_cast<double>(row) / size.height);
     writer.write(renderer.rows(row, std::min(band, size.height - row)));
   }
   writer.finish();
-  report(progress, "render", 1.0);
+  outputs.commit(progress);
   return 0;
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace tilepack::cli {
@@ -34,11 +35,15 @@ int run_validate(const ValidateArguments& arguments, Console& console) {
   if (arguments.format == "csv" && !arguments.against_reference)
     throw Error(ErrorKind::usage, "--format", "csv holds the figures of --against-reference; give both");
   const JobLimit limit(arguments.jobs);
-  const Report report = check_folder(arguments.pack, console.progress());
-  if (arguments.against_reference && passed(report)) {
+  std::optional<Pack> pack; // the very one that was checked
+  const Report report = reading_pack(arguments.pack, [&](const PackFolder& folder) {
+    Report found = check_folder(folder, arguments.pack, console.progress());
+    if (arguments.against_reference && passed(found)) pack = read_pack(folder);
+    return found;
+  });
+  if (pack) {
     constexpr std::uint64_t seed = 1; // of the places looked at: the same figures every time
-    const auto errors =
-        against_reference(read_pack(arguments.pack), arguments.lookups, seed, console.progress());
+    const auto errors = against_reference(*pack, arguments.lookups, seed, console.progress());
     if (arguments.format == "csv")
       console.print(reference_errors_csv(errors));
     else if (json)

@@ -1,4 +1,4 @@
-#include "support/noise_pack.h"
+#include "support/killed_process.h"
 #include "support/scratch_folder.h"
 #include "support/skipped.h"
 
@@ -11,9 +11,6 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <sys/ptrace.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 using namespace tilepack;
@@ -52,43 +49,6 @@ void write_new(
   staged.commit(new_files, replaceable);
 }
 
-/// Runs `work` in a process that is killed at the n-th stop at a system call, entering or leaving one, after
-/// it stopped itself. False if it ended before.
-bool killed_at(int n, const std::function<void()>& work) {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
-    try {
-      work();
-    } catch (...) {
-      ::_exit(1);
-    }
-    ::_exit(0);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  for (int i = 0; i < n && WIFSTOPPED(status); ++i) {
-    ::ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
-    ::waitpid(child, &status, 0);
-  }
-  if (WIFSTOPPED(status)) {
-    ::kill(child, SIGKILL);
-    ::waitpid(child, &status, 0);
-    return true;
-  }
-  REQUIRE(WIFEXITED(status));
-  REQUIRE(WEXITSTATUS(status) == 0);
-  return false;
-}
-
-bool tracing_is_allowed() {
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) == 0 ? 0 : 1);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
 enum class Target { beside_a_file, missing, beside_a_folder, current };
 
 /// Kills a writer at every step of its commit and clean-up. `at_once`: the folder holds the old or the new
@@ -120,7 +80,7 @@ void kill_everywhere(Target target, bool at_once) {
     fs::create_directories(temporary.path);
     for (const auto& [name, text] : before)
       if (text != "folder") put(folder / name, text);
-    killed = killed_at(n, work);
+    killed = test::killed_at(n, work);
     CAPTURE(n);
     if (!at_once) {
       const StagedFolder next(folder);
@@ -139,7 +99,7 @@ void kill_everywhere(Target target, bool at_once) {
 } // namespace
 
 TEST_CASE("killed at any system call, a writer leaves the old files or the new ones", "[pack]") {
-  if (!tracing_is_allowed())
+  if (!test::tracing_is_allowed())
     return test::skipped("killing a writer at each system call; ptrace is forbidden");
   SECTION("in a folder with somebody else's file") {
     kill_everywhere(Target::beside_a_file, true);

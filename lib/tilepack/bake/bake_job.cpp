@@ -7,8 +7,8 @@
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/preset.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/image/staged_file.h"
 #include "tilepack/pack/pack_write.h"
+#include "tilepack/pack/staged_outputs.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <span>
 #include <utility>
 
@@ -58,29 +57,16 @@ std::vector<std::string> inputs_of(const BakeJob& job, const std::vector<Materia
   return files;
 }
 
-// Refuses early what can't be written, or would replace what the pack is made from. A report inside the
-// pack's folder has to wait for the folder.
+// Refuses early what can't be written, or would replace what the pack is made from. What lies inside the pack's
+// folder has to wait for the folder.
 void check_outputs_of(const BakeJob& job, const std::vector<std::string>& inputs) {
   const OutputFile depfile{field("depfile"), job.depfile}, page{field("report"), job.report};
   check_page_name(page);
   check_outputs(std::vector{depfile, page}, inputs);
   check_pack_folder_for(job.folder, inputs);
-  if (!depfile.file.empty()) check_writable(depfile.file);
-  if (page.file.empty()) return;
-  const fs::path folder = fs::absolute(page.file).parent_path().lexically_normal();
-  if (folder != (fs::absolute(job.folder) / "").lexically_normal().parent_path()) check_writable(page.file);
-}
-
-// A depfile that gets its name only once the pack is in place.
-std::unique_ptr<StagedFile> staged_depfile(const BakeJob& job, const std::vector<std::string>& inputs,
-                                           const std::vector<std::string>& pack_files) {
-  if (job.depfile.empty()) return nullptr;
-  check_outputs(std::vector<OutputFile>{{field("depfile"), job.depfile}}, pack_files);
-  const std::string text = depfile_text(in_folder(job, "pack.json"), inputs);
-  auto staged = std::make_unique<StagedFile>(job.depfile);
-  staged->write(0, std::as_bytes(std::span(text.data(), text.size())));
-  staged->check();
-  return staged;
+  const fs::path pack_folder = one_spelling(job.folder);
+  for (const std::string& file : {depfile.file, page.file})
+    if (!file.empty() && one_spelling(file).parent_path() != pack_folder) check_writable(file);
 }
 
 std::vector<std::string> pack_files_of(const BakeJob& job, const PackDescription& description) {
@@ -94,19 +80,27 @@ void add_side_files(const BakeJob& job, std::vector<std::string>& files) {
     if (!file.empty()) files.push_back(file);
 }
 
-void write_job(const BakeJob& job, const std::vector<std::string>& inputs, const BakedJob& baked,
-               const JobWatch& watch, const Progress& progress) {
+void write_job(const BakeJob& job, const std::vector<std::string>& inputs, BakedJob& baked,
+               const JobWatch& watch, StageClock& clock, const Progress& progress) {
+  StagedOutputs outputs;
   tbb::task_group beside;
   if (watch.made) beside.run([&] { watch.made(baked); });
   try {
-    const auto depfile = staged_depfile(job, inputs, pack_files_of(job, baked.description));
-    write_pack(baked.made.pack, job.folder, progress);
-    if (depfile) depfile->commit();
+    outputs.add_folder(job.folder);
+    if (!job.depfile.empty()) {
+      check_outputs(std::vector<OutputFile>{{field("depfile"), job.depfile}},
+                    pack_files_of(job, baked.description));
+      outputs.add_text(job.depfile, depfile_text(in_folder(job, "pack.json"), inputs));
+    }
+    stage_pack(outputs, baked.made.pack, job.folder, progress);
   } catch (...) {
     beside.wait();
     throw;
   }
   beside.wait();
+  baked.stages = clock.shares();
+  if (!job.report.empty() && watch.page) outputs.add_text(job.report, watch.page(baked));
+  outputs.commit(progress);
 }
 
 ReadOptions reading_for(const BakeJob& job) {
@@ -159,6 +153,7 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   tell(notes_on_material(job));
   tell(read.notes);
   tell(prepare_maps(baked.samples, options.material));
+  if (const std::string note = replacing_note(job.folder); watch.note && !note.empty()) watch.note(note);
   if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
       watch.note && !doubt.empty())
     watch.note(doubt);
@@ -168,7 +163,7 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   if (watch.note) note_no_repeat(job, baked, watch);
   baked.bake_seconds = watch_of_parts.lap();
   baked.description = described(baked.made.pack);
-  write_job(job, inputs, baked, watch, progress);
+  write_job(job, inputs, baked, watch, clock, progress);
   baked.write_seconds = watch_of_parts.lap();
   baked.stages = clock.shares();
   return baked;

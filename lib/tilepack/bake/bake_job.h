@@ -98,11 +98,16 @@ struct JobWatch {
   /// Called when the pack is made, from another thread while its files are written: a chance to work out what
   /// a report says meanwhile. `description` is there, times are not.
   std::function<void(const BakedJob& baked)> made = {};
+
+  /// The text of the page `report`, asked for after `made`, when all else is written and nothing is in place
+  /// yet; times of writing are not yet whole. Empty: nobody writes a page.
+  std::function<std::string(const BakedJob& baked)> page = {};
 };
 
-/// Reads the maps, bakes them, and writes the pack and the depfile, all or nothing. Before the long work it is
-/// made sure that the outputs can be written and replace nothing that is read. The page `report` is left to the
-/// caller, since what it shows is found by rooms above this one; only its name and place are checked here.
+/// Reads the maps, bakes them, and writes the pack, the depfile and the page `report`, put in place together: all
+/// or nothing, the pack last (StagedOutputs). Before the long work it is made sure that they can be written and
+/// replace nothing that is read. What the page shows is found by rooms above this one, so its text comes from
+/// JobWatch::page.
 ///
 /// Throws Error as baked(), write_pack() and read_image() do; usage if outputs and inputs meet, or sample or
 /// folder are missing.

@@ -2,7 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/staged_file.h"
-#include "tilepack/pack/pack_folder_read.h"
+#include "tilepack/pack/pack_folder.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/pack_write.h"
 
@@ -16,18 +16,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path one_spelling(const std::string& file) {
-  std::error_code fault;
-  const fs::path canonical = fs::weakly_canonical(fs::absolute(file), fault);
-  return fault ? fs::absolute(file).lexically_normal() : canonical;
-}
-
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code fault;
   return one_spelling(a) == one_spelling(b) || fs::equivalent(a, b, fault); // hard links
 }
 
 } // namespace
+
+fs::path one_spelling(const std::string& file) {
+  std::error_code fault;
+  fs::path whole = fs::absolute(file, fault);
+  if (fault) whole = file; // the current folder was removed
+  fs::path canonical = fs::weakly_canonical(whole, fault);
+  if (fault) canonical = whole.lexically_normal();
+  return canonical.filename().empty() ? canonical.parent_path() : canonical; // "pack/"
+}
 
 void check_outputs(std::span<const OutputFile> outputs, std::span<const std::string> inputs) {
   const auto refuse = [](const OutputFile& output, const std::string& why) {
@@ -59,7 +62,8 @@ void check_pack_folder_for(const std::string& folder, std::span<const std::strin
                 fmt::format("'{}' lies in the pack '{}'; choose a folder outside of it", folder,
                             outer.filename().string()));
   check_pack_folder(folder);
-  if (!fs::exists(fs::path(folder) / "pack.json")) return;
+  std::error_code fault;
+  if (!fs::exists(fs::path(folder) / "pack.json", fault)) return;
   for (const std::string& file : files_of_pack(folder))
     check_outputs(std::vector<OutputFile>{{field("output"), file}}, inputs);
 }

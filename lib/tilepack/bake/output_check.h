@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@ struct OutputFile {
   std::string where; ///< for messages: field("report")
   std::string file;  ///< empty: not asked for
 };
+
+/// The one absolute path of what `file` means, without links as far as it exists. Never throws.
+std::filesystem::path one_spelling(const std::string& file);
 
 /// Throws Error (usage) if an output would replace one of `inputs`, which are read, or another output; also by
 /// another spelling of the same path or through links. To be called before anything is written.

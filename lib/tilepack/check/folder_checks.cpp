@@ -6,9 +6,9 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/json/json_schema.h"
 #include "tilepack/pack/file_name.h"
-#include "tilepack/pack/pack_folder_read.h"
-#include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/pack_folder.h"
 #include "tilepack/pack/pack_schema.h"
+#include "tilepack/pack/texture_file.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -72,7 +72,7 @@ void check_header(const AnnouncedFile& announced, const ImageHeader& header, std
                       announced.depth ? std::string(name_of(*announced.depth)) : "u8 or u16"});
 }
 
-LoadedFile load(const fs::path& folder, const AnnouncedFile& announced) {
+LoadedFile load(const PackFolder& folder, const AnnouncedFile& announced) {
   LoadedFile loaded;
   const auto refuse = [&](Rule rule, const std::string& found, const std::string& expected) {
     loaded.issues.push_back({rule, announced.file, found, expected});
@@ -84,7 +84,7 @@ LoadedFile load(const fs::path& folder, const AnnouncedFile& announced) {
   }
   fs::path path;
   try {
-    path = inside_folder(folder, announced.file);
+    path = folder.file(announced.file);
   } catch (const Error& error) {
     const bool missing = error.kind() == ErrorKind::cannot_read;
     refuse(missing ? Rule::file_missing : Rule::file_outside, missing ? "no such file" : error.what(),
@@ -104,19 +104,19 @@ LoadedFile load(const fs::path& folder, const AnnouncedFile& announced) {
     if (error.kind() == ErrorKind::internal)
       throw; // no fault of the pack: no memory, a library that can't start
     const bool values = header_read && error.kind() == ErrorKind::invalid_content;
-    refuse(values ? Rule::not_finite : Rule::file_unreadable, error.what(),
+    refuse(values ? Rule::not_finite : Rule::file_unreadable, folder.named(error, announced.file).what(),
            values ? "finite numbers" : "an image");
   }
   return loaded;
 }
 
-std::vector<LoadedFile> load_all(const fs::path& folder, const std::vector<AnnouncedFile>& files) {
+std::vector<LoadedFile> load_all(const PackFolder& folder, const std::vector<AnnouncedFile>& files) {
   std::vector<LoadedFile> loaded(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) { loaded[i] = load(folder, files[i]); });
   return loaded;
 }
 
-std::vector<Issue> check_names(const std::vector<AnnouncedFile>& files, const fs::path& folder,
+std::vector<Issue> check_names(const std::vector<AnnouncedFile>& files, const PackFolder& folder,
                                const std::string& json_name) {
   std::vector<Issue> issues;
   std::map<std::string, std::string> where;
@@ -128,7 +128,7 @@ std::vector<Issue> check_names(const std::vector<AnnouncedFile>& files, const fs
     const std::size_t slash = file.file.find('/');
     known.insert(slash == std::string::npos ? file.file : file.file.substr(0, slash + 1));
   }
-  for (const std::string& entry : folder_entries(folder))
+  for (const std::string& entry : folder.entries())
     if (!known.contains(entry)) issues.push_back({Rule::file_stray, entry, "", ""});
   return issues;
 }
@@ -164,16 +164,20 @@ void fill(Pack& pack, const std::vector<AnnouncedFile>& files, std::vector<Loade
 } // namespace
 
 Report check_folder(const fs::path& folder_or_json, const Progress& progress) {
-  const fs::path json = pack_json_of(folder_or_json);
-  const fs::path folder = folder_of(json);
-  const std::string name = json.filename().string();
-  Report report{folder_or_json.string(), 0, 0, 0, {}};
+  return reading_pack(folder_or_json, [&](const PackFolder& folder) {
+    return check_folder(folder, folder_or_json.string(), progress);
+  });
+}
+
+Report check_folder(const PackFolder& folder, const std::string& called, const Progress& progress) {
+  const std::string name = folder.json_path().filename().string();
+  Report report{called, 0, 0, 0, {}};
   const auto add = [&](std::vector<Issue> issues) {
     report.issues.insert(report.issues.end(), issues.begin(), issues.end());
   };
 
   tilepack::report(progress, "reading", 0);
-  const std::string text = pack_json_text(json);
+  const std::string& text = folder.json_text();
   add(check_document(text, name));
   std::optional<Pack> pack;
   const bool sound = report.issues.empty();

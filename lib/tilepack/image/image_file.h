@@ -13,6 +13,8 @@
 
 namespace tilepack {
 
+class StagedFile;
+
 /// The longest side of an image that is read or written, in texels.
 constexpr int max_image_side = 65536;
 
@@ -91,6 +93,9 @@ void write_image(const std::filesystem::path& file, const Image& image, const St
 /// The same in the usual container of the depth.
 void write_image(const std::filesystem::path& file, const Image& image, Depth depth, Encoding encoding);
 
+/// The same into a file that others get their names with.
+void write_image(StagedFile& into, const Image& image, const StoredFormat& format);
+
 /// The same in bands from top to bottom, for images that do not fit in memory.
 ///
 ///   ImageWriter writer(file, size, channels, format);
@@ -102,6 +107,8 @@ void write_image(const std::filesystem::path& file, const Image& image, Depth de
 class ImageWriter {
 public:
   ImageWriter(const std::filesystem::path& file, Size size, int channels, const StoredFormat& format);
+  /// Into a file that others get their names with: finish() leaves it to whoever staged it.
+  ImageWriter(StagedFile& into, Size size, int channels, const StoredFormat& format);
   ImageWriter(const std::filesystem::path& file, Size size, int channels, Depth depth, Encoding encoding);
   ~ImageWriter();
   ImageWriter(ImageWriter&&) noexcept;

@@ -45,12 +45,38 @@ std::vector<std::byte> stored(const Texels& values, Depth depth) {
   return bytes;
 }
 
+void check_what_is_written(const std::string& file, Size size, int channels, const StoredFormat& format) {
+  const Depth depth = format.depth;
+  if (!holds(format.container, depth) || container_by_name(file) != format.container)
+    throw Error(ErrorKind::usage, file,
+                fmt::format("a {} image is written as .{}; change the name or the depth", name_of(depth),
+                            name_of(usual_container(depth))));
+  if (channels < 1 || channels > 4 || size.width < 1 || size.height < 1 || size.width > max_image_side ||
+      size.height > max_image_side)
+    throw Error(
+        ErrorKind::usage, file,
+        fmt::format("{} x {} texels of {} channels cannot be written; each side may be 1 to {}, with 1 "
+                    "to 4 channels",
+                    size.width, size.height, channels, max_image_side));
+}
+
 } // namespace
 
 struct ImageWriter::State {
-  State(const std::filesystem::path& path, Size image_size, int channel_count, const StoredFormat& format)
-      : name(path.string()), size(image_size), channels(channel_count), depth(format.depth),
-        multiply(format.associated_alpha && channel_count % 2 == 0), file(path) {}
+  State(std::unique_ptr<StagedFile> own_file, StagedFile& into, Size image_size, int channel_count,
+        const StoredFormat& format)
+      : size(image_size), channels(channel_count), depth(format.depth),
+        multiply(format.associated_alpha && channel_count % 2 == 0), own(std::move(own_file)), file(into) {
+    // A failed write is remembered by the staged file, which is asked after each step.
+    const ByteSink sink = [&staged = file](std::uint64_t offset, std::span<const std::byte> bytes) {
+      staged.write(offset, bytes);
+    };
+    encode([&] {
+      writer = format.container == ImageContainer::png
+                   ? create_png(sink, size, channels, depth, format.encoding)
+                   : openimageio<ImageIo>().create_exr(sink, size, channels, depth);
+    });
+  }
 
   /// Runs a step of the encoder; of what goes wrong, the system's reason comes first, if it has one.
   template <typename F>
@@ -61,17 +87,18 @@ struct ImageWriter::State {
       throw;
     } catch (const std::runtime_error& failed) {
       file.check();
-      throw Error(ErrorKind::cannot_write, name, *failed.what() == 0 ? "the encoder gave up" : failed.what());
+      throw Error(ErrorKind::cannot_write, file.name(),
+                  *failed.what() == 0 ? "the encoder gave up" : failed.what());
     }
     file.check();
   }
 
-  std::string name;
   Size size;
   int channels;
   Depth depth;
-  bool multiply; // color by alpha
-  StagedFile file;
+  bool multiply;                   // color by alpha
+  std::unique_ptr<StagedFile> own; // unless another's is written
+  StagedFile& file;
   RasterWriter writer; // declared last: on destruction it may still write to the file
   int rows_written = 0;
 };
@@ -82,28 +109,15 @@ ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int chann
 
 ImageWriter::ImageWriter(const std::filesystem::path& file, Size size, int channels,
                          const StoredFormat& format) {
-  const Depth depth = format.depth;
-  if (!holds(format.container, depth) || container_by_name(file) != format.container)
-    throw Error(ErrorKind::usage, file.string(),
-                fmt::format("a {} image is written as .{}; change the name or the depth", name_of(depth),
-                            name_of(usual_container(depth))));
-  if (channels < 1 || channels > 4 || size.width < 1 || size.height < 1 || size.width > max_image_side ||
-      size.height > max_image_side)
-    throw Error(
-        ErrorKind::usage, file.string(),
-        fmt::format("{} x {} texels of {} channels cannot be written; each side may be 1 to {}, with 1 "
-                    "to 4 channels",
-                    size.width, size.height, channels, max_image_side));
-  state = std::make_unique<State>(file, size, channels, format);
-  // A failed write is remembered by the staged file, which is asked after each step.
-  const ByteSink sink = [&staged = state->file](std::uint64_t offset, std::span<const std::byte> bytes) {
-    staged.write(offset, bytes);
-  };
-  state->encode([&] {
-    state->writer = format.container == ImageContainer::png
-                        ? create_png(sink, size, channels, depth, format.encoding)
-                        : openimageio<ImageIo>().create_exr(sink, size, channels, depth);
-  });
+  check_what_is_written(file.string(), size, channels, format);
+  auto own = std::make_unique<StagedFile>(file);
+  StagedFile& into = *own;
+  state = std::make_unique<State>(std::move(own), into, size, channels, format);
+}
+
+ImageWriter::ImageWriter(StagedFile& into, Size size, int channels, const StoredFormat& format) {
+  check_what_is_written(into.name(), size, channels, format);
+  state = std::make_unique<State>(nullptr, into, size, channels, format);
 }
 
 ImageWriter::~ImageWriter() = default;
@@ -126,11 +140,17 @@ void ImageWriter::finish() {
   State& s = *state;
   if (s.rows_written != s.size.height) throw std::logic_error("finish() before the last row was written");
   s.encode([&] { s.writer.finish(); });
-  s.file.commit();
+  if (s.own) s.own->commit();
 }
 
 void write_image(const std::filesystem::path& file, const Image& image, const StoredFormat& format) {
   ImageWriter writer(file, image.size(), image.channels(), format);
+  writer.write(image);
+  writer.finish();
+}
+
+void write_image(StagedFile& into, const Image& image, const StoredFormat& format) {
+  ImageWriter writer(into, image.size(), image.channels(), format);
   writer.write(image);
   writer.finish();
 }

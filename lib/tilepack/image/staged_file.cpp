@@ -8,44 +8,79 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
 
 namespace tilepack {
+namespace {
 
-StagedFile::StagedFile(std::filesystem::path final_name)
-    : target(std::move(final_name)), folders(target.parent_path()) {
-  const auto fails = [&](const std::string& what) {
-    throw Error(ErrorKind::cannot_write, target.string(), what);
-  };
+// Of one target, for what killed processes left.
+constexpr int parts_looked_at = 16;
+
+std::filesystem::path part_of(const std::filesystem::path& folder, const std::filesystem::path& target,
+                              int number) {
+  return folder / part_name(target.filename().string(), number);
+}
+
+bool is_still(const FileDescriptor& file, const std::filesystem::path& name) {
+  struct stat status {};
+  return ::fstat(file.get(), &status) == 0 && file_id(name) == FileId{status.st_dev, status.st_ino};
+}
+
+// Removes `part` if nobody holds its lock; on file systems without locks nothing is known to be dead.
+void remove_if_dead(const std::filesystem::path& part) {
+  const FileDescriptor left(::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  if (left && ::flock(left.get(), LOCK_EX | LOCK_NB) == 0 && is_still(left, part)) ::unlink(part.c_str());
+}
+
+} // namespace
+
+// Creates `part` and locks it. False if another process was faster, to create it or to take it for dead.
+bool StagedFile::take(const std::filesystem::path& part) {
+  const StepOnDisk step;
+  file = FileDescriptor(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file) return false;
+  const bool busy = ::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!busy && is_still(file, part)) {
+    temporary = UnfinishedOutput(part);
+    return true;
+  }
+  file.close();
+  errno = EEXIST;
+  return false;
+}
+
+StagedFile::StagedFile(std::filesystem::path final_name, std::string called)
+    : target(std::move(final_name)), folders(target.parent_path()),
+      shown(called.empty() ? target.string() : std::move(called)) {
+  const auto fails = [&](const std::string& what) { throw Error(ErrorKind::cannot_write, shown, what); };
   std::error_code ignored;
   if (std::filesystem::is_directory(target, ignored)) fails("is a folder; name a file in it");
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  for (int number = 0; number < parts_looked_at; ++number) remove_if_dead(part_of(folder, target, number));
   // The name is taken by creating it, so two processes that write the same target do not meet.
-  for (int attempt = 0; descriptor < 0; ++attempt) {
-    temporary = folder / fmt::format(".{}.{}-{}.part", target.filename().string(), ::getpid(), attempt);
-    descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0 && (errno != EEXIST || attempt == 1000)) {
-      const int reason = errno;
-      temporary.clear();
-      fails(reason == ENOENT
-                ? fmt::format("the folder {} does not exist and can't be made", folder.string())
-                : fmt::format("cannot be created in {}: {}", folder.string(), std::strerror(reason)));
-    }
+  for (int number = 0; !file; ++number) {
+    const std::filesystem::path part = part_of(folder, target, number);
+    if (take(part) || (errno == EEXIST && number < most_parts)) continue;
+    const int reason = errno;
+    fails(reason == ENOENT
+              ? fmt::format("the folder {} does not exist and can't be made", folder.string())
+              : fmt::format("cannot be created in {}: {}", folder.string(), std::strerror(reason)));
   }
 }
 
 StagedFile::~StagedFile() {
-  if (descriptor >= 0) ::close(descriptor);
   std::error_code ignored;
-  if (!temporary.empty()) std::filesystem::remove(temporary, ignored);
+  if (!temporary.path().empty()) std::filesystem::remove(temporary.path(), ignored); // before its lock goes
 }
 
 bool StagedFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
   length = std::max(length, offset + bytes.size());
   while (!bytes.empty() && failure.empty()) {
-    const ssize_t n = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    const ssize_t n = ::pwrite(file.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       failure = n < 0 ? std::strerror(errno) : "the device takes no more";
@@ -59,21 +94,36 @@ bool StagedFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
 
 void StagedFile::check() const {
   if (!failure.empty())
-    throw Error(ErrorKind::cannot_write, target.string(),
+    throw Error(ErrorKind::cannot_write, shown,
                 fmt::format("writing failed: {}; free some space or choose another folder", failure));
 }
 
-void StagedFile::commit() {
-  const int closed = ::close(std::exchange(descriptor, -1));
-  // Some file systems report a full disk only now.
-  if (closed != 0 && failure.empty()) failure = std::strerror(errno);
+FileSwap StagedFile::finished() {
+  // Some file systems report a full disk only on closing. The lock goes with the last descriptor alone.
+  const int copy = ::dup(file.get());
+  if (copy >= 0 && ::close(copy) != 0 && failure.empty()) failure = std::strerror(errno);
   check();
+  const auto absolute = [&](const std::filesystem::path& path) {
+    std::error_code fault;
+    std::filesystem::path result = std::filesystem::absolute(path, fault);
+    return fault ? path : result;
+  };
+  const std::optional<FileId> id = file_id(temporary.path());
+  if (!id)
+    throw Error(ErrorKind::cannot_write, shown, "its temporary file was removed by someone else; try again");
+  return {absolute(target), absolute(temporary.path()), *id, file_id(target).has_value()};
+}
+
+void StagedFile::commit() {
+  finished();
+  StepOnDisk step;
   std::error_code error;
-  std::filesystem::rename(temporary, target, error);
+  std::filesystem::rename(temporary.path(), target, error);
   if (error)
-    throw Error(ErrorKind::cannot_write, target.string(),
+    throw Error(ErrorKind::cannot_write, shown,
                 fmt::format("the finished file cannot get this name: {}", error.message()));
-  temporary.clear();
+  temporary.forget();
+  step.puts_in_place();
   folders.keep();
 }
 

@@ -2,9 +2,7 @@
 
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/pack/file_name.h"
 #include "tilepack/pack/image_header_check.h"
-#include "tilepack/pack/pack_folder_read.h"
 #include "tilepack/pack/pack_json.h"
 
 #include <fmt/format.h>
@@ -19,21 +17,32 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Load {
+  std::string name; // as pack.json has it
   fs::path file;
   std::span<Image> into;
   Encoding encoding;
 };
 
+// Whatever `work` throws about the file names it as the user knows it.
+template <typename Work>
+auto naming(const PackFolder& folder, const std::string& name, Work work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw folder.named(error, name);
+  }
+}
+
 void plan_reading(std::vector<Load>& loads, std::vector<PackedMap>& maps,
-               const std::vector<std::vector<TextureFile>>& files, const fs::path& folder) {
+                  const std::vector<std::vector<TextureFile>>& files, const PackFolder& folder) {
   for (std::size_t m = 0; m < maps.size(); ++m) {
     PackedMap& map = maps[m];
     map.levels.resize(static_cast<std::size_t>(levels_in(files[m])));
     std::span<Image> left(map.levels);
     for (const TextureFile& texture : files[m]) {
-      const fs::path file = inside_folder(folder, texture.file);
-      check_texture_file(file, texture, map.channels, map.depth);
-      loads.push_back({file, left.first(texture.levels.size()), map.encoding});
+      const fs::path file = folder.file(texture.file);
+      naming(folder, texture.file, [&] { check_texture_file(file, texture, map.channels, map.depth); });
+      loads.push_back({texture.file, file, left.first(texture.levels.size()), map.encoding});
       left = left.subspan(texture.levels.size());
     }
   }
@@ -62,29 +71,29 @@ std::vector<int> read_index_map(const fs::path& file, VirtualSize size, int tile
 
 } // namespace
 
-fs::path pack_json_of(const fs::path& folder_or_json) {
-  std::error_code unused;
-  return fs::is_directory(folder_or_json, unused) ? folder_or_json / "pack.json" : folder_or_json;
-}
-
 PackDescription read_pack_description(const fs::path& folder_or_json) {
-  const fs::path json = pack_json_of(folder_or_json);
-  return parsed_pack_json(pack_json_text(json), json.string());
+  return PackFolder(folder_or_json).description();
 }
 
 Pack read_pack(const fs::path& folder_or_json) {
-  const fs::path json = pack_json_of(folder_or_json);
-  const fs::path folder = folder_of(json);
-  PackDescription description = read_pack_description(json);
+  return reading_pack(folder_or_json, [](const PackFolder& folder) { return read_pack(folder); });
+}
+
+Pack read_pack(const PackFolder& folder) {
+  PackDescription description = folder.description();
   Pack pack = std::move(description.pack);
   std::vector<Load> loads;
   plan_reading(loads, pack.maps, description.map_files, folder);
   if (pack.corner_pack) plan_reading(loads, pack.corner_pack->maps, description.corner_files, folder);
-  if (pack.mapping.kind == MappingKind::index)
-    pack.mapping.ids = read_index_map(inside_folder(folder, description.index_file), pack.mapping.size,
-                                      tile_count(pack.tiles));
+  if (pack.mapping.kind == MappingKind::index) {
+    const std::string& name = description.index_file;
+    pack.mapping.ids = naming(folder, name, [&, file = folder.file(name)] {
+      return read_index_map(file, pack.mapping.size, tile_count(pack.tiles));
+    });
+  }
   tbb::parallel_for(std::size_t{0}, loads.size(), [&](std::size_t i) {
-    read_texture_file(loads[i].file, loads[i].encoding, loads[i].into);
+    const Load& load = loads[i];
+    naming(folder, load.name, [&] { read_texture_file(load.file, load.encoding, load.into); });
   });
   return pack;
 }

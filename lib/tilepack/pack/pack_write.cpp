@@ -4,7 +4,6 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/pack_json.h"
 #include "tilepack/pack/pack_read.h"
-#include "tilepack/pack/staged_folder.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -57,7 +56,7 @@ struct Task {
 };
 
 void plan_writing(std::vector<Task>& tasks, const std::vector<PackedMap>& maps,
-               const std::vector<std::vector<TextureFile>>& files, const fs::path& folder) {
+                  const std::vector<std::vector<TextureFile>>& files, const fs::path& folder) {
   for (std::size_t m = 0; m < maps.size(); ++m) {
     const StoredFormat format = maps[m].stored();
     std::span<const Image> left(maps[m].levels);
@@ -119,16 +118,28 @@ fs::path pack_around(const fs::path& folder) {
   return {};
 }
 
-void write_pack(const Pack& pack, const fs::path& folder, const Progress& progress) {
+std::string replacing_note(const fs::path& folder) {
+  std::error_code fault;
+  if (!fs::exists(folder / "pack.json", fault)) return "";
+  const std::string why = moved_one_by_one(folder);
+  if (why.empty()) return "";
+  return fmt::format(
+      "{} {}, so that its files are replaced one by one: who reads it at that moment may find no "
+      "pack.json and must try again, and what a failing disk leaves half done is put right by the "
+      "next reading or writing",
+      folder.string(), why);
+}
+
+void stage_pack(StagedOutputs& outputs, const Pack& pack, const fs::path& folder, const Progress& progress) {
   const PackDescription description = described(pack);
-  StagedFolder staged(folder); // first, since it puts back what a killed process left half done
-  const std::vector<std::string> old_files = replaceable_files(folder);
+  const fs::path staging = outputs.add_folder(folder).path(); // first: it puts back what was left half done
+  std::vector<std::string> old_files = replaceable_files(folder);
   std::vector<Task> tasks;
-  plan_writing(tasks, pack.maps, description.map_files, staged.path());
-  if (pack.corner_pack) plan_writing(tasks, pack.corner_pack->maps, description.corner_files, staged.path());
+  plan_writing(tasks, pack.maps, description.map_files, staging);
+  if (pack.corner_pack) plan_writing(tasks, pack.corner_pack->maps, description.corner_files, staging);
   if (!description.index_file.empty()) {
     const Depth depth = tile_count(pack.tiles) <= 256 ? Depth::u8 : Depth::u16;
-    tasks.push_back({pack.mapping.ids.size(), [&pack, depth, file = staged.path() / description.index_file] {
+    tasks.push_back({pack.mapping.ids.size(), [&pack, depth, file = staging / description.index_file] {
                        write_image(file, index_image(pack.mapping, depth), depth, Encoding::linear);
                      }});
   }
@@ -151,14 +162,20 @@ void write_pack(const Pack& pack, const fs::path& folder, const Progress& progre
           }
         },
         tbb::simple_partitioner());
-    write_text(staged.path() / "pack.json", pack_json(description));
+    write_text(staging / "pack.json", pack_json(description));
   } catch (const Error& error) {
-    throw named_as_final(error, staged.path(), folder);
+    throw named_as_final(error, staging, folder);
   }
   // pack.json goes last: whoever finds it finds all it names.
   std::vector<std::string> new_files = description.all_files();
   new_files.emplace_back("pack.json");
-  staged.commit(new_files, old_files);
+  outputs.set_files(std::move(new_files), std::move(old_files));
+}
+
+void write_pack(const Pack& pack, const fs::path& folder, const Progress& progress) {
+  StagedOutputs outputs;
+  stage_pack(outputs, pack, folder, progress);
+  outputs.commit(progress);
 }
 
 } // namespace tilepack

@@ -2,8 +2,10 @@
 
 #include "tilepack/error/progress.h"
 #include "tilepack/pack/pack.h"
+#include "tilepack/pack/staged_outputs.h"
 
 #include <filesystem>
+#include <string>
 
 namespace tilepack {
 
@@ -17,9 +19,18 @@ namespace tilepack {
 /// (cannot_write). The same pack gives the same bytes.
 void write_pack(const Pack& pack, const std::filesystem::path& folder, const Progress& progress = {});
 
+/// The same without the last step: the pack waits in `outputs`, to be put in place with what else a command
+/// writes.
+void stage_pack(StagedOutputs& outputs, const Pack& pack, const std::filesystem::path& folder,
+                const Progress& progress = {});
+
 /// Throws what write_pack would throw about the folder itself, before any work is done for it: other files
 /// in it, a lock, a lack of permission. Leaves no trace.
 void check_pack_folder(const std::filesystem::path& folder);
+
+/// A sentence for the user if the pack in `folder` can't be replaced in one step; empty if it can, or if there is
+/// none.
+std::string replacing_note(const std::filesystem::path& folder);
 
 /// The folder of the pack in which `folder` would lie, however deep; empty if in none. A pack in a pack would
 /// be files of another there.
