@@ -1,6 +1,7 @@
 #include "bake_report.h"
 
 #include "tilepack/error/field.h"
+#include "tilepack/pack/map_meaning.h"
 #include "tilepack/report/pack_summary.h"
 #include "tilepack/report/size_choice.h"
 
@@ -59,8 +60,9 @@ std::string verdict_text(const BakeFacts& facts) {
   std::string text =
       fmt::format("  {:<9} {}: {}\n", "quality", name_of(verdict.grade), figures_text(facts.report.figures));
   for (const BakeRemark& remark : verdict.remarks)
-    if (remark.grade != Grade::good)
-      text += fmt::format("  {:<9} {}\n", name_of(remark.grade), spelled(remark.text, FieldSpelling::option));
+    if (remark.grade != Grade::good || remark.code == "fireflies")
+      text += fmt::format("  {:<9} {}\n", remark.grade != Grade::good ? name_of(remark.grade) : "note",
+                          spelled(remark.text, FieldSpelling::option));
   return text;
 }
 
@@ -74,9 +76,11 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
   for (std::size_t m = 0; m < pack.maps.size(); ++m) {
     const PackedMap& map = pack.maps[m];
     const Size size = made.map_files[m].front().levels.front();
-    text += fmt::format("  {:<9} {} x {} texels, {}, {}, {} {}, from {}\n", map.name, size.width, size.height,
-                        counted(levels_in(made.map_files[m]), "level"), counted(map.channels, "channel"),
-                        name_of(map.depth), name_of(map.encoding), made.map_files[m].front().file);
+    const std::string meaning = meaning_text(map);
+    text += fmt::format("  {:<9} {} x {} texels, {}, {}, {} {}, from {}{}\n", map.name, size.width,
+                        size.height, counted(levels_in(made.map_files[m]), "level"),
+                        counted(map.channels, "channel"), name_of(map.depth), name_of(map.encoding),
+                        made.map_files[m].front().file, meaning.empty() ? "" : "; " + meaning);
   }
   if (pack.layout.kind == LayoutKind::rotated) {
     text += turned_text(pack, made.map_files.front().front().levels.front());

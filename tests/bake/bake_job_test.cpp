@@ -159,6 +159,8 @@ TEST_CASE("the canonical text changes with all that reaches the bytes of a pack"
                                                   {"format", "exr"},
                                                   {"depth", "u16"},
                                                   {"alpha-coverage", "50"},
+                                                  {"normal-y", "up"},
+                                                  {"height-range", "0,3"},
                                                   {"roughness-from-normals", "false"}};
   std::set<std::string> texts{canonical_options(job)};
   for (const BakeField& field : bake_fields()) {
@@ -174,6 +176,12 @@ TEST_CASE("the canonical text changes with all that reaches the bytes of a pack"
   CHECK(texts.insert(canonical_options(linear)).second);
   BakeJob more = job;
   more.maps = {{"wet", Role::data, at.path("wet.png")}};
+  CHECK(texts.insert(canonical_options(more)).second);
+  more.maps[0].contents = {ChannelContent::roughness};
+  CHECK(texts.insert(canonical_options(more)).second);
+  more.maps[0] = {"normal", Role::normal, at.path("wet.png")};
+  CHECK(texts.insert(canonical_options(more)).second);
+  more.maps[0].normal_y = NormalY::down;
   CHECK(texts.insert(canonical_options(more)).second);
   more.maps[0].role = Role::roughness;
   CHECK(texts.insert(canonical_options(more)).second);

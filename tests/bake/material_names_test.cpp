@@ -37,6 +37,8 @@ TEST_CASE("endings are known in every spelling") {
                            "rock_2K_Albedo.jpg",
                            "rock_albedo_16bit.tif",
                            "rock_albedo_sRGB.png",
+                           "rock_BaseColor_sRGB.png",
+                           "Rock [2K] Base Color.png",
                            "Rock_2K-JPG_Color.jpg",
                            "rock_basecolor_seamless.png",
                            "(rock) albedo.png"}) {

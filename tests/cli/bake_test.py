@@ -227,7 +227,7 @@ class Bake(CommandCase):
 
     def test_another_map_by_its_name_is_told_to_be_taken_as_color(self):
         for name, word, way in (("rock_height.png", "an sRGB color", "--map height=rock_height.png"),
-                                ("rock_ao.png", "an sRGB color", "--map ao:data=rock_ao.png")):
+                                ("rock_ao.png", "an sRGB color", "--map ao=rock_ao.png")):
             lines = self.bake(sample=self.noise_png(name)).stderr.splitlines()
             self.assertEqual(len(lines), 2)
             for text in (name, word, way, "--encoding linear"):

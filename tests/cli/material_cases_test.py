@@ -118,6 +118,35 @@ class MaterialCases(CommandCase):
         self.assertEqual(sorted(found), ["cavity", "color", "height"])
         self.assertNotIn("cavity.png is passed over", said)
         self.assertNotIn("bump.png is passed over", said)
+        self.color("m/other.png")
+        self.bake("m", "--map", "color=m/other.png") # in the place of the one that was found: the main map
+        self.assertEqual(self.read_json("pack/pack.json")["maps"][0]["name"], "color")
+
+    def test_odd_names(self):
+        rough = ["color", "roughness"]
+        for names, prefix, maps in [
+                (["rockalbedo", "rockroughness"], "", rough), (["Albedo_Rock", "Roughness_Rock"], "", rough),
+                (["rock", "rock_rough"], "", rough), (["rock", "rock_rough"], "/ROCK", rough),
+                (["rock_albedo", "rock_albedo (1)", "rock_albedo copy", "rock_rough"], "", rough),
+                (["rock_albedo_1k", "rock_albedo_2k", "rock_rough_1k", "rock_rough_2k"], "/rock_1k", rough),
+                (["rock_albedo.1001", "rock_rough.1001", "rock_albedo.1002"], "/rock_1001", rough),
+                (["rock_albedo_v1", "rock_albedo_v2", "rock_rough_v2"], "", rough),
+                (["rock_BaseColor_sRGB", "rock_Roughness_raw"], "", rough),
+                (["Rock [2K] Base Color", "Rock [2K] Roughness"], "", rough), (["rock_d", "rock_r"], "", rough),
+                (["metal_albedo", "metal_roughness"], "", rough), (["Fels_H\u00f6he_albedo", "fels_H\u00f6he_rough"], "", rough),
+                (["ROCK_BASECOLOR", "rock_Roughness"], "", rough)]:
+            with self.subTest(names[0]):
+                folder = "odd%d" % len(os.listdir(self.folder))
+                os.mkdir(self.path(folder))
+                for name in names:
+                    is_rough = "ough" in name or name.endswith("_r")
+                    (self.grey if is_rough else self.color)(f"{folder}/{name}.png")
+                self.assertEqual(sorted(self.bake(folder + prefix)[1]), maps)
+        os.makedirs(self.path("up/2K"))
+        self.color("up/2K/rock_albedo.png")
+        self.refused("bake", "up", "-o", "other", code=3, saying="2K")
+        os.mkdir(self.path("up/2K/rock_normal.png"))
+        self.assertEqual(list(self.bake("up/2K")[1]), ["color"])
 
     def test_quiet_says_nothing_of_it(self):
         os.mkdir(self.path("m"))
@@ -267,9 +296,9 @@ class MaterialCases(CommandCase):
     # Fireflies, and notes of every verb that reads samples.
 
     def test_fireflies_are_named_and_placed(self):
-        done = self.run_tilepack("bake", self.case("firefly_80.exr"), "-o", "pack", "--tile-size", 32, "--mips", "none",
-                                 "--report", "page.html", "--report-format", "json")
-        self.assertIn("fireflies", done.stderr)
+        bake = ["bake", self.case("firefly_80.exr"), "-o", "pack", "--tile-size", 32, "--mips", "none", "--effort", 0]
+        self.assertIn("(fireflies)", self.run_tilepack(*bake).stdout)
+        done = self.run_tilepack(*bake, "--report", "page.html", "--report-format", "json")
         self.assertIn('"fireflies"', done.stdout)
         with open(self.path("page.html"), encoding="utf-8") as stream:
             self.assertIn("(fireflies)", stream.read())

@@ -9,6 +9,7 @@
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/pack_write.h"
 #include "tilepack/pack/staged_outputs.h"
+#include "tilepack/pack/stored_format_for.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -154,6 +155,11 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   tell(read.notes);
   tell(prepare_maps(baked.samples, options.material));
   if (const std::string note = replacing_note(job.folder); watch.note && !note.empty()) watch.note(note);
+  for (const SampleMap& map : baked.samples) {
+    const StorageRequest asked{options.format, options.depth};
+    const Depth depth = stored_format_for(map.role, map.encoding, map.depth, asked, StoredFor::pack).depth;
+    if (const std::string clipped = check_storable(map, depth); !clipped.empty()) tell({clipped});
+  }
   if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
       watch.note && !doubt.empty())
     watch.note(doubt);
@@ -184,14 +190,22 @@ BakeOptions options_of(const BakeJob& job) {
 
 std::vector<MaterialFile> maps_of(const BakeJob& job) {
   std::vector<MaterialFile> files = sample_files(job.sample).files;
+  const bool one_image = files.size() == 1 && files.front().file == job.sample;
+  const std::size_t found = one_image ? 0 : files.size();
   // A map that is named takes the place of one that was found; two that are named for one place are an error,
   // found later.
-  if (files.size() > 1 || files.front().file != job.sample)
-    std::erase_if(files, [&](const MaterialFile& found) {
-      return std::any_of(job.maps.begin(), job.maps.end(),
-                         [&](const MaterialFile& named) { return named.name == found.name; });
-    });
-  files.insert(files.end(), job.maps.begin(), job.maps.end());
+  std::vector<bool> taken(found, false);
+  for (const MaterialFile& named : job.maps) {
+    const auto place = std::find_if(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(found),
+                                    [&](const MaterialFile& f) { return f.name == named.name; });
+    const auto index = static_cast<std::size_t>(place - files.begin());
+    if (index < found && !taken[index]) {
+      *place = named;
+      taken[index] = true;
+    } else {
+      files.push_back(named);
+    }
+  }
   return files;
 }
 

@@ -25,8 +25,8 @@ struct HandDrawnTile {
   ImageFile image;
 };
 
-/// Brings drawings of normals into the form that is averaged (complete_normals()). Returns what was done, a sentence once
-/// with the file it is true of first. Drawings of other roles stay as they are.
+/// Brings drawings of normals into the form that is averaged (complete_normals()). Returns what was done, a
+/// sentence once with the file it is true of first. Drawings of other roles stay as they are.
 std::vector<std::string> complete_drawings(std::vector<HandDrawnTile>& drawings, Role role);
 
 /// The drawings as a tile set with one map, their guard measured. All must have one size, 4 to 4096 texels a

@@ -141,12 +141,14 @@ public:
     for (const Candidate& c : material) {
       auto [at, is_new] = best.try_emplace(c.reading.kind.kind, &c);
       if (is_new) continue;
-      const Candidate& taken = *at->second;
-      if (c.reading.preference == taken.reading.preference)
+      if (c.reading.preference < at->second->reading.preference) at->second = &c;
+    }
+    for (const Candidate& c : material) {
+      const Candidate& taken = *best[c.reading.kind.kind];
+      if (&c != &taken && c.reading.preference == taken.reading.preference)
         throw Error(ErrorKind::invalid_content, place,
                     fmt::format("'{}' and '{}' are both the {} map; keep one, or name the maps with {}",
                                 taken.file, c.file, c.reading.kind.kind->name, field("map")));
-      if (c.reading.preference < taken.reading.preference) at->second = &c;
     }
     for (const auto& [kind, candidate] : best) found.files.push_back(file_of(*candidate));
     std::sort(found.files.begin(), found.files.end(), [](const MaterialFile& a, const MaterialFile& b) {
@@ -248,12 +250,15 @@ FoundMaterial material_files(std::span<const std::string> file_names, const std:
     names.push_back(material.front().reading.shown);
     chosen = &material;
   }
-  if (names.empty())
+  if (names.empty()) {
+    std::string seen = folder.files.empty() ? "there is no image" : "there are " + listed(folder.files);
+    if (!folder.files.empty() && std::none_of(folder.files.begin(), folder.files.end(), has_readable_ending))
+      seen += fmt::format(", of formats that are not read: export them as {}", readable_formats());
     fail(fmt::format(
         "holds no color map by its name; {}. A color map is called like rock_albedo.png ({} lists "
         "all endings), or give the image itself as SAMPLE",
-        folder.files.empty() ? "there is no image" : "there are " + listed(folder.files),
-        field("list-maps")));
+        seen, field("list-maps")));
+  }
   if (names.size() > 1)
     fail(fmt::format("holds several materials: {}; add the name of one to the path", fmt::join(names, ", ")));
   FoundMaterial found = Choice(*chosen, place).found;

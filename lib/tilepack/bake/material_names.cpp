@@ -51,7 +51,10 @@ std::vector<Word> words_of(std::string_view name) {
   for (std::size_t at = 0; at < name.size(); ++at) {
     if (!is_part(name[at])) continue;
     const bool apart = at == 0 || !is_part(name[at - 1]);
-    if (words.empty() || apart || begins_word(name, at)) words.push_back({"", at, at, apart});
+    const bool after_one_letter = // "sRGB"
+        !words.empty() && words.back().end - words.back().start == 1 && is_small(name[words.back().start]);
+    if (words.empty() || apart || (begins_word(name, at) && !after_one_letter))
+      words.push_back({"", at, at, apart});
     words.back().end = at + 1;
   }
   for (Word& word : words) word.text = lower(name.substr(word.start, word.end - word.start));

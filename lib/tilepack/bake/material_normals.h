@@ -39,11 +39,15 @@ struct GreenEvidence {
   bool from_heights = false; ///< else from the normals alone
 };
 
-/// Which way green points in a normal map, from the slopes it stands for. With a height map of the same size: the
-/// slopes must be its own; that east slopes agree or all of them are opposite tells first whether high is white or
-/// black. Without, or where heights tell nothing: slopes of a surface h are its derivatives, so that ∂/∂y of the
-/// x slope is ∂/∂x of the y slope (the field has no curl), and with green taken the wrong way one is minus the other.
-/// None where neither is clear, as in a flat map. `heights` may be null. Texels of large maps are sampled.
+/// Which way green points in a normal map, from the slopes it stands for.
+///
+///   with heights   of the same size: the slopes must be the heights' own. Whether those to the east agree or are
+///                  all opposite tells first whether high is white or black
+///   without        or where heights tell nothing: slopes of a surface h are its derivatives, so ∂/∂y of the x
+///                  slope is ∂/∂x of the y slope (the field has no curl); with green taken the wrong way one is
+///                  minus the other
+///
+/// None where neither is clear, as in a flat map. `heights` may be null. Rows of large maps are sampled.
 std::optional<GreenEvidence> green_evidence(const Image& normals, const Image* heights);
 
 /// Turns green the other way, and `normal_y` with it, if it is known.

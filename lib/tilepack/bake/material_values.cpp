@@ -2,7 +2,6 @@
 
 #include "tilepack/bake/material_normals.h"
 #include "tilepack/error/error.h"
-#include "tilepack/exemplar/fireflies.h"
 
 #include <fmt/format.h>
 
@@ -148,18 +147,19 @@ std::vector<std::string> prepare_maps(std::vector<SampleMap>& maps, const Materi
   const bool ranged = options.height_range || options.fit_height_range;
   if (ranged && heights == nullptr)
     notes.list.push_back(field("height-range") + " is for height maps, and there is none");
-  for (SampleMap& map : maps)
-    if (ranged && map.role == Role::height) apply_range(map, options);
-  for (const SampleMap& map : maps)
-    if (const std::string found = listed(fireflies(map)); !found.empty())
-      notes.add(map, "has " + found + "; paint them over");
+  for (SampleMap& map : maps) {
+    if (!ranged || map.role != Role::height) continue;
+    if (is_integer(map.depth) && options.fit_height_range)
+      notes.add(map, fmt::format("holds integers, which fill a range that is not known: {}",
+                                 field("height-range", "A,B")));
+    apply_range(map, options);
+  }
   return notes.list;
 }
 
-void check_storable(const SampleMap& map, Depth depth) {
-  if (!is_integer(depth) || is_integer(map.depth)) return;
+std::string check_storable(const SampleMap& map, Depth depth) {
+  if (!is_integer(depth) || is_integer(map.depth)) return "";
   constexpr float rounding = 0.5f / 255.0f;
-  constexpr double most_highlights = 0.01;
   const Texels& values = map.image.data();
   const auto channels = static_cast<std::size_t>(map.image.channels());
   const auto lies_beyond = [](float v) { return v < -rounding || v > 1.0f + rounding; };
@@ -169,16 +169,22 @@ void check_storable(const SampleMap& map, Depth depth) {
                     values.begin() + static_cast<std::ptrdiff_t>(at + channels), lies_beyond))
       ++beyond;
   const double share = static_cast<double>(beyond) / static_cast<double>(texels);
-  if (beyond == 0 || (is_light(map.role) && share <= most_highlights)) return;
+  if (beyond == 0) return "";
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+  const std::string percent =
+      share > 0.1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+  if (is_light(map.role))
+    return fmt::format(
+        "{}: holds light of {} to {}, and {} holds 0 to 1: {} of the texels are clipped; {} keeps them",
+        map.label(), *least, *greatest, name_of(depth), percent, field("format", "exr"));
   const auto worst = -*least > *greatest - 1 ? least : greatest;
   throw Error(
       ErrorKind::invalid_content, map.label(),
-      fmt::format("holds values of {} to {} ({} at {}), and {} holds 0 to 1: {:.2g} % of the texels would be "
+      fmt::format("holds values of {} to {} ({} at {}), and {} holds 0 to 1: {} of the texels would be "
                   "clipped. {}",
                   *least, *greatest, *worst,
                   place_of(map.image, static_cast<std::size_t>(worst - values.begin())), name_of(depth),
-                  100 * share,
+                  percent,
                   map.role == Role::height
                       ? fmt::format("Store 0 to 1 and what they stand for ({} or {}), or floats ({})",
                                     field("height-range", "auto"),

@@ -26,15 +26,14 @@ struct MaterialOptions {
 ///             Integers are taken to fill the range given already, and have none of their own
 ///   one value a texel (roughness, height, ao, metallic, opacity): alpha that is 1 everywhere goes; opacity that
 ///             lies in alpha alone is taken from there
-///   light     nothing; fireflies are told (exemplar/fireflies.h)
 ///
 /// Returns what there is to tell, "FILE: sentence" with marked fields. Throws Error (invalid_content) as
 /// complete_normals() does, and for heights outside the range given.
 std::vector<std::string> prepare_maps(std::vector<SampleMap>& maps, const MaterialOptions& options);
 
 /// Values that can't be stored: integers hold 0 to 1. Throws Error (invalid_content) if they are to be stored as
-/// `depth` and more than rounding lies beyond; of light a hundredth of the texels may, as highlights are clipped
-/// everywhere. The message names the way out.
-void check_storable(const SampleMap& map, Depth depth);
+/// `depth` and more than rounding lies beyond; but light may, as highlights are clipped everywhere: then the result
+/// is a note that tells, else empty. The message names the way out.
+std::string check_storable(const SampleMap& map, Depth depth);
 
 } // namespace tilepack

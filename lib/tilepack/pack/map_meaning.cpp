@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
 #include <utility>
 
 namespace tilepack {
@@ -27,6 +29,17 @@ void add_meaning(const MapFormat& map, JsonValue& json) {
   }
   if (map.normal_y) json["normal_y"] = name_of(*map.normal_y);
   if (map.range) json["range"] = JsonValue::array({map.range->low, map.range->high});
+}
+
+std::string meaning_text(const MapFormat& map) {
+  if (map.normal_y) return fmt::format("green {}", name_of(*map.normal_y));
+  if (map.range) return fmt::format("0 to 1 stand for {:.6g} to {:.6g}", map.range->low, map.range->high);
+  if (map.contents.size() == 1) return std::string(name_of(map.contents.front()));
+  std::string text;
+  constexpr std::string_view letters = "RGBA";
+  for (std::size_t c = 0; c < std::min(map.contents.size(), letters.size()); ++c)
+    text += fmt::format("{}{} {}", c == 0 ? "" : ", ", letters[c], name_of(map.contents[c]));
+  return text;
 }
 
 void read_meaning(const JsonCursor& json, MapFormat& map, int channels) {

@@ -3,6 +3,7 @@
 #include "tilepack/error/field.h"
 #include "tilepack/measure/pack_memory.h"
 #include "tilepack/numeric/grid.h"
+#include "tilepack/pack/map_meaning.h"
 
 #include <fmt/format.h>
 
@@ -94,6 +95,8 @@ std::string maps_text(const PackSummary& summary, const std::vector<PackedMap>& 
         map.name, name_of(map.role), name_of(map.encoding), map.channels, map.channels == 1 ? "" : "s",
         name_of(map.depth), levels, levels == 1 ? "" : "s", fine.width, fine.height, coarse.width,
         coarse.height, bytes_text(static_cast<double>(file_bytes(summary, files[m]))));
+    if (const std::string meaning = meaning_text(map); !meaning.empty())
+      text += fmt::format("            {}\n", meaning);
     for (const RoundTrip& trip : map.round_trips)
       text += fmt::format(
           "{}{} {}",
