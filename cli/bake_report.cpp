@@ -54,6 +54,8 @@ std::string loss_text(const PackedMap& map) {
   return fmt::format("  {:<9} stored turned and read back: {}\n", map.name, text);
 }
 
+} // namespace
+
 // Only what could be better: an artist wants to know whether to look closer.
 std::string verdict_text(const BakeFacts& facts) {
   const BakeVerdict verdict = bake_verdict(facts);
@@ -65,8 +67,6 @@ std::string verdict_text(const BakeFacts& facts) {
                           spelled(remark.text, FieldSpelling::option));
   return text;
 }
-
-} // namespace
 
 std::string bake_report_text(const PackDescription& made, const std::string& folder, const BakeFacts* facts) {
   const Pack& pack = made.pack;

@@ -12,4 +12,7 @@ namespace tilepack::cli {
 std::string bake_report_text(const PackDescription& made, const std::string& folder,
                              const BakeFacts* facts = nullptr);
 
+/// The lines of it about how good a set is.
+std::string verdict_text(const BakeFacts& facts);
+
 } // namespace tilepack::cli

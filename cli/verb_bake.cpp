@@ -8,6 +8,7 @@
 #include "tilepack/bake/map_kinds.h"
 #include "tilepack/bake/material_read.h"
 #include "tilepack/bake/preset.h"
+#include "tilepack/report/advised_bake.h"
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/pack_summary.h"
 #include "tilepack/tileset/material_map.h"
@@ -40,6 +41,8 @@ struct BakeArguments {
   std::string depfile;
   std::string report;
   PrintedFormat printed;
+  std::string require;
+  bool apply_advice = false;
   int jobs = 0;
   std::map<std::string, std::string> fields; // bake field → what the command line says
 };
@@ -85,6 +88,19 @@ BakeJob job_from(const BakeArguments& arguments) {
   return job;
 }
 
+constexpr int most_tries = 2; // with what the verdict advises
+
+// What is printed on stdout is for whoever wants to mend it.
+void refuse_worse(const BakeArguments& arguments, const BakeFacts& facts, Console& console) {
+  const BakeVerdict verdict = bake_verdict(facts);
+  if (verdict.grade <= enum_called<Grade>(arguments.require, "--require", "grade")) return;
+  console.print(arguments.printed.json() ? judged_json(facts) : verdict_text(facts));
+  throw Error(ErrorKind::check_failed, "",
+              fmt::format("the set is {}, and --require asks for {}: nothing was written{}",
+                          name_of(verdict.grade), arguments.require,
+                          arguments.apply_advice ? "" : "; --apply-advice tries what the verdict names"));
+}
+
 // Where there is a verb for it.
 std::string many_samples() {
   const auto verbs = verb_table();
@@ -119,7 +135,17 @@ int run_bake(BakeArguments& arguments, Console& console) {
     draw(stage, done);
   };
   watch.note = [&](std::string_view line) { console.note(spelled(line, FieldSpelling::option)); };
-  watch.made = [&](const BakedJob& baked) { story.facts = bake_facts(baked.made, baked.samples); };
+  if (arguments.apply_advice || !arguments.require.empty())
+    watch.make = [&](std::span<const SampleMap> samples, const BakeOptions&, const Progress& progress) {
+      AdvisedBake best =
+          advised_bake(samples, settings_of(job), arguments.apply_advice ? most_tries : 0, progress);
+      for (const std::string& line : best.story) console.note(spelled(line, FieldSpelling::option));
+      if (!arguments.require.empty()) refuse_worse(arguments, best.facts, console);
+      story.facts = std::move(best.facts);
+      return std::move(best.made);
+    };
+  else
+    watch.made = [&](const BakedJob& baked) { story.facts = bake_facts(baked.made, baked.samples); };
   watch.page = [&](const BakedJob& baked) {
     story.stages = baked.stages;
     return bake_page(story, baked.made, baked.samples);
@@ -150,7 +176,8 @@ std::string preset_lines() {
   return text;
 }
 
-constexpr std::array<std::string_view, 5> first_fields{"tile-size", "colors", "flatten", "effort", "seed"};
+constexpr std::array<std::string_view, 6> first_fields{"tile-size", "colors", "wraps",
+                                                       "flatten",   "effort", "seed"};
 
 Action declare_bake(Options& options) {
   auto arguments = std::make_shared<BakeArguments>();
@@ -178,6 +205,15 @@ Action declare_bake(Options& options) {
               "also write a page: tiles, cuts and sources drawn, figures, what to change")
       .value("FILE.html");
   add_field_options(options, bake_fields(), first_fields, arguments->fields);
+  options.group(most_used);
+  options
+      .option("--require", arguments->require,
+              "write nothing and exit with 5 if the verdict on the set is worse (default: any will do)")
+      .one_of("good|fair");
+  options.flag(
+      "--apply-advice", arguments->apply_advice,
+      "where the verdict is not good, bake again with the options it names, at most twice, and keep the "
+      "better");
   options.group("Reading samples");
   options.flag(
       "--list-maps", arguments->list_maps,

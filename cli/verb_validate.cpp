@@ -5,6 +5,7 @@
 #include "tilepack/check/folder_checks.h"
 #include "tilepack/measure/against_reference.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/report/quality_note.h"
 
 #include <fmt/format.h>
 
@@ -38,6 +39,7 @@ int run_validate(const ValidateArguments& arguments, Console& console) {
   std::optional<Pack> pack; // the very one that was checked
   const Report report = reading_pack(arguments.pack, [&](const PackFolder& folder) {
     Report found = check_folder(folder, arguments.pack, console.progress());
+    if (passed(found)) note_quality(folder.description().pack, found);
     if (arguments.against_reference && passed(found)) pack = read_pack(folder);
     return found;
   });

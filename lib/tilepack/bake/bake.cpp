@@ -165,11 +165,14 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   SynthOptions synth = options.synth;
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);
+  const Size size = samples[0].image.size();
   std::optional<Periodicity> periods;
+  BakedPack result;
+  const bool look = options.fit_tile_size || options.wraps == WrapChoice::found;
+  const FeatureImage features = look ? feature_image(samples) : FeatureImage();
+  if (look) periods = detect_periods(samples);
   if (options.fit_tile_size) {
-    const Size size = samples[0].image.size();
-    const int side = tile_side_for(size, object_scale(feature_image(samples)), tile_count(wanted));
-    periods = detect_periods(samples);
+    const int side = tile_side_for(size, object_scale(features), tile_count(wanted));
     // Only squares can be turned.
     synth.tile_size =
         options.layout == LayoutKind::rotated ? Size{side, side} : tile_size_in_step(*periods, side, size);
@@ -177,10 +180,19 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   const PackingPlan plan = planned_packing(options, wanted, synth.tile_size); // before the long stage
   check_fit(samples[0], synth.tile_size);
   check_flatten(options.flatten);
-  BakedPack result;
   result.synth = synth;
   result.flatten = options.flatten;
   result.size_chosen = options.fit_tile_size;
+  result.wrap = options.wraps == WrapChoice::found
+                    ? detect_wrap(features, *periods)
+                    : SampleWrap{options.wraps == WrapChoice::yes, options.wraps == WrapChoice::yes};
+  if (result.wrap != SampleWrap{}) {
+    if (!periods) periods = detect_periods(samples); // of what is given: a cut at its end would disturb
+    // A tile more, so that a window of that size may begin anywhere.
+    result.flattened = continued(samples, {size.width + (result.wrap.x ? synth.tile_size.width : 0),
+                                           size.height + (result.wrap.y ? synth.tile_size.height : 0)});
+    samples = result.flattened;
+  }
   if (options.flatten > 0) {
     report(progress, "flattening", 0.0);
     result.flattened = flattened_maps(samples, options, synth.tile_size);
@@ -191,7 +203,7 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   result.sources = subset(synthesize(result.sample, synth, progress), wanted);
   report(progress, "figures", 0.0);
   tbb::parallel_invoke(
-      [&] { result.report = set_report(result.sample, result.sources); },
+      [&] { result.report = set_report(result.sample, result.sources, size); },
       [&] { result.pack = packed(assembled(result.sources, samples), plan, options.synth.seed, progress); });
   result.pack.generator.version = TILEPACK_VERSION;
   result.pack.generator.options = recorded_options(options);

@@ -2,6 +2,7 @@
 
 #include "tilepack/bake/bake_options.h"
 #include "tilepack/error/progress.h"
+#include "tilepack/exemplar/sample_wrap.h"
 #include "tilepack/synth/set_report.h"
 #include "tilepack/synth/synthesize.h"
 
@@ -29,7 +30,10 @@ struct BakedPack {
   int flatten = 0;          ///< as in the options
   bool size_chosen = false; ///< synth.tile_size was found to suit the sample
 
-  /// The sample maps after flattening, which all above is about; none if flatten is 0.
+  SampleWrap wrap; ///< along which axes the sample was continued by itself
+
+  /// The sample maps after flattening and, where they wrap, continued by a tile to the east and south, which all
+  /// above is about; none if they are used as given.
   std::vector<SampleMap> flattened;
 
   /// The sample maps that the tiles are copied from. `given`: those that baked() got.

@@ -214,6 +214,11 @@ std::string get_variants(const BakeOptions& o) {
   return o.synth.colors.variants > 1 ? fmt::format("{}", o.synth.colors.variants) : "";
 }
 
+// Not recorded where it was left to the sample.
+std::string get_wraps(const BakeOptions& o) {
+  return o.wraps == WrapChoice::found ? "" : std::string(name_of(o.wraps));
+}
+
 std::vector<BakeField> make_fields() {
   using O = BakeOptions;
   using enum FieldScope;
@@ -223,6 +228,8 @@ std::vector<BakeField> make_fields() {
   FieldValue variants = whole_number(
       1, limits::most_variants, [](auto& o) -> auto& { return o.synth.colors.variants; });
   variants.get = get_variants;
+  FieldValue wraps = choice(at(&O::wraps));
+  wraps.get = get_wraps;
   return {
       {"tile-size", tiles, read_by(Type::extent, "N|WxH|auto", set_tile_size, get_tile_size),
        fmt::format(
@@ -231,6 +238,10 @@ std::vector<BakeField> make_fields() {
            limits::smallest_tile_side_made, limits::largest_tile_side)},
       {"flatten", tiles, flatten,
        "percent of slow shading (uneven light, a tone that drifts) taken out of color and height, 0 to 100"},
+      {"wraps", tiles, wraps,
+       "whether the sample was made to repeat, so that tiles may show what lies across its borders; auto: "
+       "found out "
+       "(the default)"},
       {"coloring", tiles, with_consequence(choice(at(&O::synth, &SynthOptions::coloring)), follow_coloring),
        "what neighbouring tiles agree on; corner unless another option is for edge colors only"},
       {"colors", tiles, read_by(Type::extent, "N|HxV", set_colors, get_colors),
@@ -345,6 +356,7 @@ BakeOptions bake_options(std::span<const BakeSetting> settings) {
     options.synth.coloring = asks_for_edge_colors(settings) ? Coloring::edge : Coloring::corner;
   follow_coloring(options);
   options.fit_tile_size = true; // unless a size is set
+  options.wraps = WrapChoice::found;
   for (const BakeField& field : bake_fields())
     if (const BakeSetting* setting = setting_of(settings, field.name)) {
       try {

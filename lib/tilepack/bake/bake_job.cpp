@@ -136,6 +136,18 @@ void note_no_repeat(const BakeJob& job, const BakedJob& baked, const JobWatch& w
                          tile.width, tile.height));
 }
 
+// Of a sample that was not said to wrap.
+void note_wrap(const BakeOptions& options, const BakedJob& baked, const JobWatch& watch) {
+  const SampleWrap& wrap = baked.made.wrap;
+  if (options.wraps != WrapChoice::found || wrap == SampleWrap{}) return;
+  watch.note(fmt::format("the sample goes on at its opposite borders{}, so tiles show what lies across them "
+                         "too; {} takes it as it ends",
+                         wrap.x && wrap.y ? ""
+                         : wrap.x         ? " in the east and west"
+                                          : " in the north and south",
+                         field("wraps", "no")));
+}
+
 BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWatch& watch) {
   const std::vector<MaterialFile> maps = maps_of(job);
   const std::vector<std::string> inputs = inputs_of(job, maps);
@@ -165,8 +177,10 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
     watch.note(doubt);
   if (watch.note) note_many_tiles(options, watch);
   baked.read_seconds = watch_of_parts.lap();
-  baked.made = tilepack::baked(baked.samples, options, progress);
+  baked.made = watch.make ? watch.make(baked.samples, options, progress)
+                          : tilepack::baked(baked.samples, options, progress);
   if (watch.note) note_no_repeat(job, baked, watch);
+  if (watch.note) note_wrap(options, baked, watch);
   baked.bake_seconds = watch_of_parts.lap();
   baked.description = described(baked.made.pack);
   write_job(job, inputs, baked, watch, clock, progress);

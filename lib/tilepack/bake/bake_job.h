@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,6 +92,11 @@ std::vector<std::string> files_written(const BakeJob& job, const BakedJob& baked
 /// written.
 struct JobWatch {
   JobProgress progress = {};
+
+  /// Makes the pack in place of baked(), which it has to call in some way; throwing refuses what was made.
+  std::function<BakedPack(std::span<const SampleMap> samples, const BakeOptions& options,
+                          const Progress& progress)>
+      make = {};
 
   /// Takes a line for the user, with marked fields, as soon as there is something to tell.
   std::function<void(std::string_view line)> note = {};

@@ -18,6 +18,17 @@ template <>
 inline constexpr auto enum_names<SetKind> =
     std::array{EnumName{SetKind::complete, "complete"}, EnumName{SetKind::sequential, "sequential"}};
 
+/// Whether the sample goes on at its opposite borders (exemplar/sample_wrap.h).
+enum class WrapChoice {
+  found, ///< along each axis where it looks so
+  yes,   ///< along both
+  no,
+};
+
+template <>
+inline constexpr auto enum_names<WrapChoice> = std::array{
+    EnumName{WrapChoice::yes, "yes"}, EnumName{WrapChoice::no, "no"}, EnumName{WrapChoice::found, "auto"}};
+
 /// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
 /// keys of a preset: see bake/bake_fields.h, which holds their names, ranges and help.
 /// The defaults are those of `tilepack bake`, 2 corner colors in a de Bruijn layout, but for the size of tiles,
@@ -35,6 +46,7 @@ struct BakeOptions : PackingOptions {
   bool fit_tile_size =
       false; ///< tile sides follow the sample (bake/tile_size_choice.h) in place of synth.tile_size
   SetKind set = SetKind::complete;
+  WrapChoice wraps = WrapChoice::no; ///< bake_options of no setting: found
   int flatten = 0; ///< percent of slow shading taken out of the sample, 0..100 (exemplar/flatten.h)
 };
 

@@ -13,10 +13,12 @@ namespace {
 constexpr double usual_tiles = 16;
 
 // Strips reach five scales to either side of an edge (synth/framed_set_settings.h). Reaching less than a quarter of
-// the tile, 16 tiles of a sixteenth of the sample show .81 to .85 of it (gravel, leaves); reaching further .73 (a
-// stone wall), and tiles a quarter wider .86.
+// the tile, 16 tiles of a sixteenth of the sample show .82 to .87 of it up to 1024 x 1024 texels (gravel, grass,
+// asphalt), and .78 to .83 of larger ones; reaching further .73 (a stone wall). Tiles a quarter wider show .80 to
+// .96.
 constexpr double reach_of_scale = 5.0;
 constexpr double usual_reach = 0.25;
+constexpr double large_side = 320;
 constexpr double wider = 1.25;
 constexpr double least_scales = 6;   // of a tile's side
 constexpr double most_texels = 2.44; // of 16 tiles, in those of the sample: 1.25⁴, wider and rounded up
@@ -57,7 +59,7 @@ int tile_side_for(Size sample, double object_scale, int tiles) {
   const double area = static_cast<double>(sample.width) * sample.height;
   const double plain = std::sqrt(area / usual_tiles);
   double side = plain;
-  if (reach_of_scale * object_scale > usual_reach * plain) side *= wider;
+  if (plain > large_side || reach_of_scale * object_scale > usual_reach * plain) side *= wider;
   side = std::max(side, std::min(least_scales * object_scale, plain * std::sqrt(most_texels) / wider));
   const int shorter = std::min(sample.width, sample.height);
   int chosen = rounded_up(side);

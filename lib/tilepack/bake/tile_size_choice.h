@@ -9,7 +9,7 @@ namespace tilepack {
 /// are told a size.
 ///
 /// A sample of W x H texels is shown to four fifths or more where the 16 tiles of a default set hold as many
-/// texels as the sample, or, where it shows large things and strips along edges have to be wide
+/// texels as the sample, or, where it is large, or shows large things so that strips along edges have to be wide
 /// (`object_scale`, exemplar/object_scale.h), 1.6 times as many. Tiles are at least 6 scales wide, where the
 /// sample is large enough for that, and at most half of the sample's shorter side. Sides are 4, 5, 6 or 7 times
 /// a power of two, so that tiles halve often.

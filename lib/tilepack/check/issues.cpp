@@ -124,6 +124,10 @@ const auto& rule_table() {
           Rule::level_stale, warning, "a level does not follow from the finer one",
           "The texture changes as one moves away: a level was edited and the others were not built again.",
           "Build the levels again from level 0."},
+
+      RuleText{Rule::set_poor, Severity::note, "the figures of the tiles, found when they were made, are poor",
+               "Cuts, borders or repeats of parts can be seen, though all is stored as it should be.",
+               "Bake again with what the finding names, or with " + field("apply-advice") + "."},
   };
   return table;
 }

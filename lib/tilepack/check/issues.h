@@ -23,7 +23,7 @@ inline constexpr auto enum_names<Severity> =
 /// What can be wrong with a pack. The numbers are stable: they are printed as TP101 and so on, scripts may
 /// rely on them, and a number that goes out of use is never given to another rule.
 ///
-/// 1xx pack.json · 2xx files · 3xx tiles and their places · 4xx texels · 5xx mapping · 6xx levels
+/// 1xx pack.json · 2xx files · 3xx tiles and their places · 4xx texels · 5xx mapping · 6xx levels · 7xx quality
 enum class Rule : int {
   not_json = 101,
   field_missing = 102,
@@ -72,6 +72,8 @@ enum class Rule : int {
   levels_missing = 601,
   level_size = 602,
   level_stale = 603,
+
+  set_poor = 701,
 };
 
 /// All there is to say about a rule without looking at a pack.

@@ -1,5 +1,7 @@
 #include "tilepack/exemplar/period.h"
 
+#include "tilepack/exemplar/exact_repeat.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -337,6 +339,9 @@ Periodicity detect_periods(std::span<const SampleMap> samples) {
   Periodicity found = unstaggered(rows, {strongest_period(columns), strongest_period(rows)});
   found.x.length *= shrink_of(image);
   found.y.length *= shrink_of(image);
+  const ExactRepeat exact = exact_repeat(samples);
+  if (exact.x > 0) found.x = {exact.x > 1 ? exact.x : 0.0, 1.0, true};
+  if (exact.y > 0) found.y = {exact.y > 1 ? exact.y : 0.0, 1.0, true};
   return found;
 }
 

@@ -11,6 +11,7 @@ namespace tilepack {
 struct Period {
   double length = 0;   ///< texels, 0 if none stands out
   double strength = 0; ///< 0..1: half the difference of agreement between whole periods and halves
+  bool exact = false;  ///< texel by texel, in all maps; with length 0: the same all along the axis
 };
 
 /// Repeats along both axes: brick courses, planks, roof tiles, woven threads, lines of text.
@@ -24,6 +25,8 @@ struct Periodicity {
 /// multiple nor a fraction of the true period wins. At least two periods must fit into half the sample. Looks
 /// at brightness and hue, low frequencies taken out. Of a staggered lattice, such as bricks laid by half, the
 /// periods are a brick and two courses, unless bricks differ so much that it is not told from a grid.
+///
+/// Where all maps repeat texel by texel (exemplar/exact_repeat.h), that is the period, however short.
 ///
 /// Integer arithmetic up to the final ratios: the same on every machine. Samples under 32 texels a side have
 /// no period.

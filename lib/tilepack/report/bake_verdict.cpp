@@ -1,5 +1,6 @@
 #include "tilepack/report/bake_verdict.h"
 
+#include "tilepack/bake/bake_fields.h"
 #include "tilepack/error/field.h"
 #include "tilepack/exemplar/feature_image.h"
 #include "tilepack/exemplar/fireflies.h"
@@ -194,6 +195,15 @@ void judge_shading(const BakeFacts& facts, Remarks& remarks) {
         Cure{"tile-size", ""});
 }
 
+// A drawn pattern of which each tile holds whole repeats: any part of it shows all there is.
+bool is_pattern_in_step(const BakeFacts& facts) {
+  const auto in_step = [](const Period& period, int side) {
+    return period.exact && (period.length == 0 || whole_periods(period, side) > 0);
+  };
+  return in_step(facts.nature.periods.x, facts.synth.tile_size.width) &&
+         in_step(facts.nature.periods.y, facts.synth.tile_size.height);
+}
+
 void judge_sample(const BakeFacts& facts, Remarks& remarks) {
   const SampleTraits& n = facts.nature;
   const Size tile = facts.synth.tile_size;
@@ -357,6 +367,29 @@ std::span<const std::string_view> remark_codes() {
   return codes;
 }
 
+BakeVerdict pack_verdict(const Pack& pack) {
+  BakeVerdict verdict;
+  if (!pack.synthesis || pack.synthesis->sample_step == 0) return verdict;
+  BakeFacts facts;
+  try {
+    std::vector<BakeSetting> settings;
+    for (const auto& [name, value] : pack.generator.options) settings.push_back({name, value, field(name)});
+    facts.synth = bake_options(settings).synth;
+  } catch (const Error&) {
+    return verdict; // made by another version
+  }
+  facts.report.figures = *pack.synthesis;
+  facts.synth.tile_size = pack.tile_size;
+  facts.tiles = tile_count(pack.tiles);
+  facts.sample = {1 << 20, 1 << 20}; // not known: large enough for every tile to have an inside of its own
+  facts.size_chosen = true;          // so no other size is advised for its sake
+  judge_cuts(facts, verdict.remarks);
+  judge_borders(facts, verdict.remarks);
+  judge_variety(facts, verdict.remarks);
+  for (const BakeRemark& remark : verdict.remarks) verdict.grade = std::max(verdict.grade, remark.grade);
+  return verdict;
+}
+
 BakeVerdict bake_verdict(const BakeFacts& facts) {
   BakeVerdict verdict;
   if (facts.report.figures.sample_step == 0) {
@@ -364,12 +397,13 @@ BakeVerdict bake_verdict(const BakeFacts& facts) {
         "The sample is one plain value: nothing in it can be seen to repeat.");
     return verdict;
   }
-  judge_sample(facts, verdict.remarks);
+  const bool pattern = is_pattern_in_step(facts);
+  if (!pattern) judge_sample(facts, verdict.remarks);
   judge_periods(facts, verdict.remarks);
   judge_cuts(facts, verdict.remarks);
   judge_borders(facts, verdict.remarks);
-  judge_variety(facts, verdict.remarks);
-  judge_landmark(facts, verdict.remarks);
+  if (!pattern) judge_variety(facts, verdict.remarks);
+  if (!pattern) judge_landmark(facts, verdict.remarks);
   if (!facts.fireflies.empty())
     add(verdict.remarks, Grade::good, "fireflies",
         fmt::format(

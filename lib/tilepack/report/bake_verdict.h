@@ -66,6 +66,10 @@ std::span<const std::string_view> remark_codes();
 
 BakeVerdict bake_verdict(const BakeFacts& facts);
 
+/// What can be judged of a finished pack, whose sample isn't there: cuts, borders and variety by its
+/// Pack::synthesis. No remarks where it holds no such figures, or options that can't be read.
+BakeVerdict pack_verdict(const Pack& pack);
+
 /// A figure as it is held against the limits of verdict_thresholds.h, in their units; a limit that is absent
 /// does not exist. Some count only together: two tones with ink, coverage with variety, both of a mark.
 struct JudgedFigure {

@@ -33,4 +33,7 @@ std::string summary_json(const PackSummary& summary);
 std::string made_json(const PackDescription& made, const std::string& folder,
                       const BakeFacts* facts = nullptr);
 
+/// The part of it about the set alone: figures and verdict.
+std::string judged_json(const BakeFacts& facts);
+
 } // namespace tilepack

@@ -219,4 +219,9 @@ std::string made_json(const PackDescription& made, const std::string& folder, co
   return json_text(json, JsonLetters::ascii);
 }
 
+std::string judged_json(const BakeFacts& facts) {
+  return json_text({{"synthesis", synthesis_json(facts)}, {"verdict", verdict_json(facts)}},
+                   JsonLetters::ascii);
+}
+
 } // namespace tilepack

@@ -12,9 +12,11 @@ namespace tilepack {
 struct SizeChoice {
   double times_sample = 0; ///< texels that the tiles hold, in those of the sample
 
-  /// Half the side, and about what it would show of the sample; no cure where tiles can't be smaller.
+  /// The next smaller power of two as a side, its memory against the chosen one's, and about what it would show of
+  /// the sample; none where tiles can't be smaller.
   std::vector<Cure> smaller;
-  double smaller_shows = 0; ///< 0..1, estimated
+  double smaller_memory = 0; ///< 0..1
+  double smaller_shows = 0;  ///< 0..1, estimated
 
   /// More colors and tiles of this size; none where there are most already.
   std::vector<Cure> richer;

@@ -101,11 +101,25 @@ int texels_in_pieces(const std::vector<SourceTexel>& texels, Size size) {
   return uncovered;
 }
 
+// Where the sample repeats, texels beyond it are its own.
+std::size_t place_of(SourceTexel from, Size sample) {
+  return at(from.x % sample.width, from.y % sample.height, sample.width);
+}
+
+// What is known of the texels of a sample, as often as it is shown beside itself.
+std::vector<int> repeated(const std::vector<int>& values, Size sample, Size whole) {
+  std::vector<int> result;
+  result.reserve(static_cast<std::size_t>(whole.width) * static_cast<std::size_t>(whole.height));
+  for (int y = 0; y < whole.height; ++y)
+    for (int x = 0; x < whole.width; ++x) result.push_back(values[place_of({x, y}, sample)]);
+  return result;
+}
+
 // How often each texel of the sample is shown, tiles counted as often as they show it.
 std::vector<int> uses_of(const SourceMap& sources, Size sample) {
   std::vector<int> uses(static_cast<std::size_t>(sample.width) * static_cast<std::size_t>(sample.height));
   for (const auto& texels : sources.texels)
-    for (const SourceTexel& from : texels) ++uses[at(from.x, from.y, sample.width)];
+    for (const SourceTexel& from : texels) ++uses[place_of(from, sample)];
   return uses;
 }
 
@@ -169,15 +183,14 @@ double mean_across_borders(const FeatureImage& image, const SourceMap& sources) 
 }
 
 // In blocks of 4 x 4 texels, about what SampleStatistics resolves.
-double distance_of(const FeatureImage& image, const SampleStatistics& statistics,
-                   const std::vector<int>& uses) {
+double distance_of(Size sample, const SampleStatistics& statistics, const std::vector<int>& uses) {
   constexpr int block = 4;
   SampleStatistics::Tally tally = statistics.empty();
-  for (int y = 0; y < image.height; y += block)
-    for (int x = 0; x < image.width; x += block) {
+  for (int y = 0; y < sample.height; y += block)
+    for (int x = 0; x < sample.width; x += block) {
       int count = 0;
-      for (int j = y; j < std::min(image.height, y + block); ++j)
-        for (int i = x; i < std::min(image.width, x + block); ++i) count += uses[at(i, j, image.width)];
+      for (int j = y; j < std::min(sample.height, y + block); ++j)
+        for (int i = x; i < std::min(sample.width, x + block); ++i) count += uses[at(i, j, sample.width)];
       if (count > 0) statistics.add(tally, {x, y, block, block}, count);
     }
   return std::sqrt(statistics.distance(tally));
@@ -209,7 +222,7 @@ std::vector<int> tiles_showing(const SourceMap& sources, Size sample) {
   std::vector<int> last(count, -1); // the last tile that was counted for a texel
   for (std::size_t t = 0; t < sources.texels.size(); ++t)
     for (const SourceTexel& from : sources.texels[t]) {
-      const std::size_t p = at(from.x, from.y, sample.width);
+      const std::size_t p = place_of(from, sample);
       if (last[p] == static_cast<int>(t)) continue;
       last[p] = static_cast<int>(t);
       ++showing[p];
@@ -250,9 +263,10 @@ std::vector<int> pieces_of_tile(const SourceMap& sources, int tile) {
   return piece;
 }
 
-SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources) {
+SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources, Size repeat) {
   const FeatureImage& image = analysed.features;
-  const Size sample{image.width, image.height};
+  const Size whole{image.width, image.height};
+  const Size sample = repeat.width > 0 ? repeat : whole;
   const std::size_t tiles = sources.texels.size();
   const double tile_texels =
       static_cast<double>(sources.tile_size.width) * static_cast<double>(sources.tile_size.height);
@@ -272,7 +286,7 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources) {
     tile.in_pieces = rounded(texels_in_pieces(sources.texels[t], sources.tile_size) / tile_texels);
     int alone = 0;
     for (const SourceTexel& from : sources.texels[t]) {
-      const int shown = showing[at(from.x, from.y, sample.width)];
+      const int shown = showing[place_of(from, sample)];
       alone += shown == 1;
       often[t] += 2 * static_cast<std::size_t>(shown) >= tiles;
     }
@@ -286,10 +300,14 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources) {
   f.cut_length = rounded(static_cast<double>(all.size()) / tile_number);
   f.cut_mean = rounded(mean_of(all));
   f.cut_p95 = rounded(p95_of(std::move(all)));
-  tbb::parallel_invoke([&] { f.border_mean = rounded(mean_across_borders(image, sources)); },
-                       [&] { f.sample_step = rounded(step_of_sample(image)); },
-                       [&] { f.histogram_distance = rounded(distance_of(image, analysed.statistics, uses)); },
-                       [&] { report.landmark = most_seen(analysed.saliency, sample, showing, tiles); });
+  tbb::parallel_invoke(
+      [&] { f.border_mean = rounded(mean_across_borders(image, sources)); },
+      [&] { f.sample_step = rounded(step_of_sample(image)); },
+      [&] { f.histogram_distance = rounded(distance_of(sample, analysed.statistics, uses)); },
+      [&] {
+        report.landmark = most_seen(analysed.saliency, whole,
+                                    sample == whole ? showing : repeated(showing, sample, whole), tiles);
+      });
   for (const TileFigures& tile : report.tiles) {
     f.in_pieces += tile.in_pieces / tile_number;
     f.fresh += tile.fresh / tile_number;

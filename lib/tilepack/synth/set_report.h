@@ -23,8 +23,9 @@ struct SetReport {
   Landmark landmark;              ///< deviation 0 if nothing stands out and is shown
 };
 
-/// `sample`: as synthesis saw it.
-SetReport set_report(const SampleAnalysis& sample, const SourceMap& sources);
+/// `sample`: as synthesis saw it. `repeat`: where that shows itself again from this width and height on, so that
+/// texels so far apart are one (exemplar/sample_wrap.h); else {}.
+SetReport set_report(const SampleAnalysis& sample, const SourceMap& sources, Size repeat = {});
 
 /// One texel of cut, for drawing.
 struct Cut {
@@ -35,7 +36,7 @@ struct Cut {
 };
 std::vector<Cut> cuts_of_tile(const FeatureImage& image, const SourceMap& sources, int tile);
 
-/// How many tiles show each texel of the sample, row by row.
+/// How many tiles show each texel of the sample, row by row; of sources beyond it, that of the sample's repeat.
 std::vector<int> tiles_showing(const SourceMap& sources, Size sample);
 
 /// Areas of a tile that were copied in one piece: a number for each texel, row by row, counting up from 0 in
