@@ -1,4 +1,6 @@
+#include "completions.h"
 #include "interrupt.h"
+#include "manual_pages.h"
 #include "verb.h"
 
 #include "tilepack/error/error.h"
@@ -36,7 +38,9 @@ std::string listing() {
   for (const Verb& verb : verb_table()) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
   text += fmt::format("  {:<10} {}\n", "help", "this list, or the help of one verb: tilepack help VERB");
   text +=
-      "\n`tilepack VERB --help` has the options and an example. `tilepack --version` prints the version.\n";
+      "\n`tilepack VERB --help` has the options and an example. `tilepack --version` prints the version,\n"
+      "`tilepack help --man [VERB]` a manual page, `tilepack help --completion bash|zsh|fish` a script for "
+      "that shell.\n";
   return text + exit_codes;
 }
 
@@ -82,6 +86,21 @@ int run_verb(const Verb& verb, const std::vector<std::string>& arguments, Consol
   return action(console);
 }
 
+// `tilepack help --man [VERB]` and `tilepack help --completion SHELL`: what is installed beside the program.
+bool print_made(const std::vector<std::string>& arguments, Console& console) {
+  const std::string argument = arguments.size() > 2 ? arguments[2] : "";
+  if (arguments[1] == "--man") {
+    console.print(argument.empty() ? manual_of_all() : manual_of(verb_named(argument)));
+    return true;
+  }
+  if (arguments[1] != "--completion") return false;
+  if (argument != "bash" && argument != "zsh" && argument != "fish")
+    throw Error(ErrorKind::usage, "--completion",
+                fmt::format("'{}' is not allowed; it must be bash, zsh or fish", argument));
+  console.print(completion_for(argument));
+  return true;
+}
+
 int run(const std::vector<std::string>& arguments, Console& console) {
   const std::string first = arguments.empty() ? "" : arguments[0];
   if (first.empty()) throw Error(ErrorKind::usage, "", "a verb is missing; `tilepack help` lists them");
@@ -90,6 +109,7 @@ int run(const std::vector<std::string>& arguments, Console& console) {
     return 0;
   }
   if (first == "help" || first == "--help" || first == "-h") {
+    if (arguments.size() > 1 && print_made(arguments, console)) return 0;
     if (arguments.size() < 2)
       console.print(listing());
     else
@@ -106,7 +126,7 @@ int guarded_run(const std::vector<std::string>& arguments) {
   std::atomic_flag said;
   const InterruptWatch watch([&](bool something_is_in_place) {
     if (!said.test_and_set())
-      console.last_note(something_is_in_place ? "interrupted; what was not finished is left out"
+      console.last_note(something_is_in_place ? "interrupted; what was finished is kept"
                                               : "interrupted; nothing was written");
   });
   try {

@@ -311,6 +311,26 @@ bool Options::given(const std::string& name) const {
   return parser->app.count(name) > 0;
 }
 
+std::vector<OptionText> Options::listed() const {
+  std::vector<OptionText> list;
+  for (const CLI::Option* option : parser->app.get_options()) {
+    OptionText text;
+    text.is_positional = option->get_positional();
+    if (text.is_positional) {
+      text.names = {option->get_name(true)};
+    } else {
+      for (const std::string& name : option->get_snames()) text.names.push_back("-" + name);
+      for (const std::string& name : option->get_lnames()) text.names.push_back("--" + name);
+      if (option->get_expected_max() > 0) text.value = option->get_type_name();
+    }
+    text.help = option->get_description();
+    text.group = option->get_group() == parser->common_group ? "" : option->get_group();
+    text.is_required = option->get_required();
+    list.push_back(std::move(text));
+  }
+  return list;
+}
+
 std::string Options::help() const {
   return parser->app.help();
 }

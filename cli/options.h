@@ -19,6 +19,16 @@ struct CommandText {
   std::string more;    ///< follows the message of an argument too many
 };
 
+/// One option or positional as it was declared, for manual pages and completion.
+struct OptionText {
+  std::vector<std::string> names; ///< "-o", "--output"; of a positional its name
+  std::string value;              ///< "FILE", "text|json"; empty for a flag and a positional
+  std::string help;
+  std::string group; ///< heading that it stands below; of the first empty
+  bool is_positional = false;
+  bool is_required = false;
+};
+
 class OptionParser;
 
 /// One option that was declared; says more about it. A handle: the Options it came from must outlive it.
@@ -99,6 +109,9 @@ public:
 
   /// Was it on the command line? For after parsing. `name`: "--level".
   bool given(const std::string& name) const;
+
+  /// All of them, in the order of the help.
+  std::vector<OptionText> listed() const;
 
   /// The text of --help, 100 columns: descriptions begin with a capital letter, whatever was declared.
   std::string help() const;

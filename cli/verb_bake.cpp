@@ -1,5 +1,6 @@
 #include "bake_field_options.h"
 #include "bake_report.h"
+#include "interrupt.h"
 #include "jobs.h"
 #include "value_check.h"
 #include "verb.h"
@@ -8,6 +9,9 @@
 #include "tilepack/bake/map_kinds.h"
 #include "tilepack/bake/material_read.h"
 #include "tilepack/bake/preset.h"
+#include "tilepack/batch/content_hash.h"
+#include "tilepack/batch/file_watch.h"
+#include "tilepack/batch/output_lock.h"
 #include "tilepack/report/advised_bake.h"
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/pack_summary.h"
@@ -18,9 +22,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +50,8 @@ struct BakeArguments {
   std::string require;
   bool apply_advice = false;
   int jobs = 0;
+  bool wait = false;
+  bool watch = false;
   std::map<std::string, std::string> fields; // bake field → what the command line says
 };
 
@@ -116,19 +124,12 @@ void refuse_pattern(const std::string& sample) {
               "is a pattern, and a bake takes one sample: name a file or a folder" + many_samples());
 }
 
-int run_bake(BakeArguments& arguments, Console& console) {
-  if (arguments.list_presets) {
-    console.print(arguments.printed.json() ? listed_presets_json() : listed_presets());
-    return 0;
-  }
-  if (arguments.list_maps) {
-    console.print(kinds_text());
-    return 0;
-  }
-  refuse_pattern(arguments.sample);
-  const std::string now = arguments.printed.settle(arguments.fields);
-  const JobLimit limit(arguments.jobs);
-  const BakeJob job = job_from(arguments);
+void bake_once(const BakeArguments& arguments, const BakeJob& job, Console& console) {
+  const Progress waiting = console.progress();
+  std::optional<OutputLock> lock;
+  if (!job.folder.empty())
+    lock.emplace(job.folder, arguments.wait ? WhenBusy::wait : WhenBusy::refuse,
+                 [&](const std::string& who) { report(waiting, "waiting for " + who, 0.0); });
   BakeSummary story{std::filesystem::path(job.sample).filename().string(), {}, {}};
   JobWatch watch;
   watch.progress = [draw = console.progress()](std::string_view, std::string_view stage, double done) {
@@ -151,12 +152,76 @@ int run_bake(BakeArguments& arguments, Console& console) {
     return bake_page(story, baked.made, baked.samples);
   };
   const BakedJob baked = run(job, watch);
+  if (arguments.watch) {
+    const std::string text = bake_report_text(baked.description, job.folder, &story.facts);
+    console.note(text.substr(0, text.find('\n'))); // a line each time
+    return;
+  }
   if (arguments.printed.json())
     console.print(made_json(baked.description, job.folder, &story.facts));
   else if (!console.quiet || arguments.printed.asked_for())
     console.print(bake_report_text(baked.description, job.folder, &story.facts));
   console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", baked.read_seconds,
                            baked.bake_seconds, baked.write_seconds));
+}
+
+// What the pack is made from, by content; another value for what can't be read.
+ContentHash content_read(const BakeJob& job) {
+  ContentHasher hasher;
+  try {
+    for (const std::string& file : files_read(job)) {
+      hasher.add_field(file);
+      hasher.add_field(hex(hash_if_there(file).value_or(ContentHash{})));
+    }
+  } catch (const Error& error) {
+    hasher.add_field(error.what());
+  }
+  return hasher.value();
+}
+
+int bake_watching(const BakeArguments& arguments, const BakeJob& job, Console& console) {
+  if (arguments.printed.json())
+    throw Error(ErrorKind::usage, "--format", "json is for one bake; it does not go with --watch");
+  constexpr std::chrono::milliseconds quiet{100};
+  std::optional<ContentHash> made;
+  console.note("watching; Ctrl-C ends it");
+  while (true) {
+    std::vector<std::string> files{job.sample};
+    try {
+      files = files_read(job);
+    } catch (const Error&) { // the bake says what is wrong
+    }
+    FileWatch watch(files); // before the bake, so that what is saved meanwhile counts
+    const ContentHash now = content_read(job);
+    if (made != now) {
+      try {
+        bake_once(arguments, job, console);
+      } catch (const Error& error) {
+        console.error(error.message(FieldSpelling::option));
+      }
+      made = now;
+    }
+    watch.wait(quiet, [] {
+      if (interrupted()) throw Interrupted{"the pack is whole"};
+    });
+  }
+}
+
+int run_bake(BakeArguments& arguments, Console& console) {
+  if (arguments.list_presets) {
+    console.print(arguments.printed.json() ? listed_presets_json() : listed_presets());
+    return 0;
+  }
+  if (arguments.list_maps) {
+    console.print(kinds_text());
+    return 0;
+  }
+  refuse_pattern(arguments.sample);
+  const std::string now = arguments.printed.settle(arguments.fields);
+  const JobLimit limit(arguments.jobs);
+  const BakeJob job = job_from(arguments);
+  if (arguments.watch) return bake_watching(arguments, job, console);
+  bake_once(arguments, job, console);
   if (!now.empty()) console.note(now);
   return 0;
 }
@@ -237,6 +302,9 @@ Action declare_bake(Options& options) {
   options.option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
       .value("FILE");
   options.flag("--list-presets", arguments->list_presets, "show the built-in presets in full and end");
+  options.flag("--wait", arguments->wait, "wait for another process that writes this pack");
+  options.flag("--watch", arguments->watch,
+               "go on, and bake again whenever what the pack is made from is saved");
   add_jobs_option(options, arguments->jobs);
   options.section("Presets", preset_lines());
   options.section(

@@ -1,5 +1,6 @@
 #include "batch_display.h"
 #include "batch_make.h"
+#include "build_rules.h"
 #include "byte_size.h"
 #include "interrupt.h"
 #include "jobs.h"
@@ -10,14 +11,18 @@
 #include "tilepack/bake/text_file.h"
 #include "tilepack/batch/batch_run.h"
 #include "tilepack/batch/entry_choice.h"
+#include "tilepack/batch/file_watch.h"
 #include "tilepack/error/error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tilepack::cli {
@@ -33,6 +38,9 @@ struct BatchArguments {
   std::string depfile;
   std::string stamp;
   std::string log_format = "text";
+  std::string emit;
+  std::string rules;
+  bool watch = false;
   bool dry_run = false;
   bool changed = false;
   bool all = false;
@@ -40,6 +48,13 @@ struct BatchArguments {
   bool wait = true;
   int jobs = 0;
 };
+
+// How rules call this program.
+std::string program_path() {
+  std::error_code fault;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", fault);
+  return fault ? "tilepack" : self.string();
+}
 
 BatchSettings settings_from(const BatchArguments& arguments) {
   if (arguments.all && arguments.changed)
@@ -91,11 +106,26 @@ void write_depfile(const BatchArguments& arguments, const Manifest& manifest,
   write_text_file(arguments.depfile, depfile_text(target, files_read(manifest, chosen)));
 }
 
+// The rules of a build system on stdout, or in their file.
+void print_rules(const BatchArguments& arguments, const Manifest& manifest,
+                 const std::vector<std::size_t>& chosen, Console& console) {
+  RuleSettings rules{program_path(), "", arguments.rules};
+  if (!arguments.cache.empty()) rules.arguments += "--cache " + shell_word(arguments.cache);
+  const std::string text = (arguments.emit == "ninja" ? ninja_rules : make_rules)(manifest, chosen, rules);
+  if (arguments.rules.empty())
+    console.print(text);
+  else
+    write_text_file(arguments.rules, text);
+}
+
 int run_once(const BatchArguments& arguments, Console& console) {
   const BatchSettings settings = settings_from(arguments);
-  const JobLimit limit(arguments.jobs);
   const Manifest manifest = read_manifest(arguments.manifest);
   const std::vector<std::size_t> chosen = chosen_entries(manifest, arguments.only, arguments.shard);
+  if (!arguments.emit.empty()) {
+    print_rules(arguments, manifest, chosen, console);
+    return 0;
+  }
   if (arguments.dry_run)
     return print_plan(manifest, planned_batch(manifest, chosen, settings), arguments.verbose, console);
   BatchDisplay display(console, manifest, arguments.log_format == "json" ? LogFormat::json : LogFormat::text,
@@ -111,11 +141,56 @@ int run_once(const BatchArguments& arguments, Console& console) {
   watch.ended = [&](const EntryResult& result) { display.ended(result); };
   watch.warned = [&](std::size_t entry, std::string_view message) { display.warned(entry, message); };
   const std::vector<EntryResult> results = run_batch(manifest, chosen, settings, watch);
-  display.summary(results);
+  if (!arguments.watch) display.summary(results);
   const int code = worst_code(results);
   write_depfile(arguments, manifest, chosen);
   if (code == 0 && !arguments.stamp.empty()) write_text_file(arguments.stamp, "");
   return code;
+}
+
+// The files that a batch hangs on, as far as the manifest can be read now; never those that it writes.
+FileWatch watch_of(const BatchArguments& arguments) {
+  std::vector<std::string> files{arguments.manifest}, written;
+  try {
+    const Manifest manifest = read_manifest(arguments.manifest);
+    const auto chosen = chosen_entries(manifest, arguments.only, arguments.shard);
+    for (const std::string& file : files_read(manifest, chosen)) files.push_back(file);
+    for (const BatchEntry& entry : manifest.entries) {
+      written.push_back(entry.output);
+      written.push_back(target_of(entry));
+    }
+    written.push_back(index_file_of(arguments.manifest));
+  } catch (const Error&) { // the run says what is wrong
+  }
+  return FileWatch(files, written);
+}
+
+int run_watching(const BatchArguments& arguments, Console& console) {
+  constexpr std::chrono::milliseconds quiet{100};
+  const Interrupted end{"what was finished is kept"};
+  console.note("watching; Ctrl-C ends it");
+  while (true) {
+    FileWatch watch = watch_of(arguments); // before the run, so that what is saved meanwhile counts
+    try {
+      run_once(arguments, console);
+    } catch (const Error& error) { // a manifest that is being edited
+      console.error(error.message(FieldSpelling::option));
+    }
+    watch.wait(quiet, [&] {
+      if (interrupted()) throw end;
+    });
+  }
+}
+
+int run_batch_verb(const BatchArguments& arguments, Console& console) {
+  for (const auto& [given, name] :
+       {std::pair(arguments.dry_run, "--dry-run"), std::pair(!arguments.emit.empty(), "--emit")})
+    if (arguments.watch && given)
+      throw Error(ErrorKind::usage, name, "makes nothing; it does not go with --watch");
+  if (!arguments.rules.empty() && arguments.emit.empty())
+    throw Error(ErrorKind::usage, "--output", "is where --emit writes its rules; give both");
+  const JobLimit limit(arguments.jobs);
+  return arguments.watch ? run_watching(arguments, console) : run_once(arguments, console);
 }
 
 Action declare_batch(Options& options) {
@@ -131,6 +206,7 @@ Action declare_batch(Options& options) {
       .value("SIZE");
   options.flag("--dry-run", a->dry_run, "say what would be made and why, and make nothing");
   options.flag("--changed", a->changed, "make what changed, which is what happens without it too");
+  options.flag("--watch", a->watch, "go on, and make again what changes whenever a file is saved");
   options.flag("--all", a->all, "make everything, also what is current");
   options
       .option("--only", a->only,
@@ -155,6 +231,12 @@ Action declare_batch(Options& options) {
               "at the end, take out what was used longest ago until it is no larger")
       .value("SIZE");
   options.group("For build systems");
+  options.option("--emit", a->emit, "print rules for a build system, one an entry, and make nothing")
+      .one_of("ninja|make");
+  options
+      .option("-o,--output", a->rules,
+              "write the rules of --emit there; they are made again when the manifest changes")
+      .value("FILE");
   options.option("--depfile", a->depfile, "write a rule for make or ninja: every file that was read")
       .value("FILE");
   options
@@ -167,7 +249,7 @@ Action declare_batch(Options& options) {
               "lines on stderr, or one JSON object a line on stdout (batch_log.schema.json)")
       .one_of("text|json");
   options.flag("-v,--verbose", a->verbose, "name what is current too, and say why when an entry begins");
-  return [a](Console& console) { return run_once(*a, console); };
+  return [a](Console& console) { return run_batch_verb(*a, console); };
 }
 
 } // namespace
@@ -177,7 +259,8 @@ Verb batch_verb() {
           "  tilepack batch textures.json\n"
           "  tilepack batch textures.json --dry-run\n"
           "  tilepack batch textures.json --jobs 8 --memory 4G --cache /mnt/share/packs\n"
-          "  tilepack batch textures.json --only 'rocks/*' --all\n"
+          "  tilepack batch textures.json --only 'rocks/*' --watch\n"
+          "  tilepack batch textures.json --emit ninja -o build.ninja && ninja\n"
           "A manifest: {\"format\": \"tilepack-manifest\", \"version\": 1,\n"
           "  \"jobs\": [{\"samples\": \"textures/*.png\", \"output\": \"packs/{stem}\"}]}\n"
           "Exit code: the highest of all entries that failed.\n",

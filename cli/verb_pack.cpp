@@ -6,6 +6,7 @@
 #include "verb.h"
 
 #include "tilepack/bake/bake_fields.h"
+#include "tilepack/bake/depfile.h"
 #include "tilepack/bake/hand_drawn_set.h"
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/text_file.h"
@@ -32,6 +33,7 @@ struct PackArguments {
   std::string name = "color";
   std::string role = "color";
   PrintedFormat printed;
+  std::string depfile;
   double tolerance = 0;
   ReadingArguments reading;
   int jobs = 0;
@@ -71,6 +73,9 @@ int run_pack(PackArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
   check_pack_folder_for(arguments.folder, arguments.tiles);
   if (const std::string note = replacing_note(arguments.folder); !note.empty()) console.note(note);
+  std::vector<std::string> inputs = arguments.tiles;
+  inputs.push_back(arguments.colors);
+  check_outputs(std::vector<OutputFile>{{"--depfile", arguments.depfile}}, inputs);
   const TileColors tiles =
       parsed_color_list(read_text_file(arguments.colors, "the list of colors"), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);
@@ -90,6 +95,8 @@ int run_pack(PackArguments& arguments, Console& console) {
   pack.generator.seed = options.synth.seed;
   pack.generator.options = recorded_options(options, packing_fields());
   write_pack(pack, arguments.folder, progress);
+  if (!arguments.depfile.empty())
+    write_text_file(arguments.depfile, depfile_text(arguments.folder + "/pack.json", inputs));
   const PackDescription made = described(pack);
   if (arguments.printed.json())
     console.print(made_json(made, arguments.folder));
@@ -127,6 +134,8 @@ Action declare_pack(Options& options) {
   add_reading_options(options, arguments->reading);
   options.group("General");
   add_printed_format(options, arguments->printed);
+  options.option("--depfile", arguments->depfile, "write a rule for make or ninja: what the pack depends on")
+      .value("FILE");
   add_jobs_option(options, arguments->jobs);
   return [arguments](Console& console) { return run_pack(*arguments, console); };
 }

@@ -3,6 +3,7 @@
 #include "value_check.h"
 #include "verb.h"
 
+#include "tilepack/bake/depfile.h"
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/text_file.h"
 #include "tilepack/image/image_file.h"
@@ -39,6 +40,7 @@ struct RenderArguments {
   std::string filter; ///< empty: trilinear for windows, anisotropic for camera views
   std::string border = "wrap";
   std::string encoding;
+  std::string depfile;
   int level = 0;
   double scale = 1;
   double corner_width = default_corner_width;
@@ -104,12 +106,17 @@ RenderTarget target_for(const std::string& file, const PackedMap& map, const std
   return target;
 }
 
+std::vector<std::string> files_read_by(const RenderArguments& arguments) {
+  std::vector<std::string> files = files_of_pack(arguments.pack);
+  if (!arguments.view.mesh.empty()) files.push_back(arguments.view.mesh);
+  return files;
+}
+
 int run_render(const RenderArguments& arguments, Console& console) {
   const JobLimit limit(arguments.jobs);
   const WrapMode border = enum_called<WrapMode>(arguments.border, "--border", "border");
-  std::vector<std::string> inputs = files_of_pack(arguments.pack);
-  if (!arguments.view.mesh.empty()) inputs.push_back(arguments.view.mesh);
-  check_outputs(std::vector<OutputFile>{{"--output", arguments.output}}, inputs);
+  check_outputs(std::vector<OutputFile>{{"--output", arguments.output}, {"--depfile", arguments.depfile}},
+                files_read_by(arguments));
   if (arguments.view.camera) {
     const Pack pack = read_pack(arguments.pack);
     const int map = map_called(pack, arguments.map);
@@ -207,11 +214,16 @@ Action declare_render(Options& options) {
           "encoding of the picture: srgb or linear (default: that of the map; in EXR linear, in PNG of float "
           "color srgb)")
       .value("NAME");
+  options.option("--depfile", a->depfile, "write a rule for make or ninja: what the picture depends on")
+      .value("FILE");
   add_jobs_option(options, a->jobs);
   add_camera_options(options, a->view);
   return [a, &options](Console& console) {
     (a->view.camera ? refuse_window_options : refuse_camera_options)(options);
-    return run_render(*a, console);
+    const int code = run_render(*a, console);
+    if (code == 0 && !a->depfile.empty())
+      write_text_file(a->depfile, depfile_text(a->output, files_read_by(*a)));
+    return code;
   };
 }
 

@@ -17,8 +17,15 @@ install(
   PATTERN *.h)
 install(FILES ${PROJECT_SOURCE_DIR}/lib/tilepack/pack/pack.schema.json ${PROJECT_SOURCE_DIR}/lib/tilepack/check/report.schema.json
               ${PROJECT_SOURCE_DIR}/lib/tilepack/batch/manifest.schema.json
+              ${PROJECT_SOURCE_DIR}/lib/tilepack/batch/batch_log.schema.json
         DESTINATION ${tilepack_share})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets DESTINATION ${tilepack_share})
+
+# Manual pages and completion, which the program itself prints, so that they are those of its verbs and options.
+install(DIRECTORY ${TILEPACK_MADE}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${TILEPACK_MADE}/completion/bash/tilepack DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${TILEPACK_MADE}/completion/zsh/_tilepack DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${TILEPACK_MADE}/completion/fish/tilepack.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
 install(EXPORT tilepackTargets NAMESPACE tilepack:: DESTINATION ${tilepack_package})
 configure_package_config_file(
@@ -28,4 +35,4 @@ configure_package_config_file(
 # Before 1.0 a minor version may break what was.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tilepackConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/tilepackConfig.cmake ${PROJECT_BINARY_DIR}/tilepackConfigVersion.cmake
-              ${CMAKE_CURRENT_LIST_DIR}/tilepackLibraries.cmake DESTINATION ${tilepack_package})
+              ${CMAKE_CURRENT_LIST_DIR}/tilepackLibraries.cmake ${CMAKE_CURRENT_LIST_DIR}/tilepackBuild.cmake DESTINATION ${tilepack_package})

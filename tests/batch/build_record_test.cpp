@@ -2,10 +2,10 @@
 
 #include "tilepack/bake/text_file.h"
 #include "tilepack/batch/build_record.h"
+#include "tilepack/batch/cache_head.h"
 #include "tilepack/batch/content_hash.h"
 #include "tilepack/batch/current_index.h"
 #include "tilepack/batch/job_queue.h"
-#include "tilepack/batch/output_cache.h"
 #include "tilepack/batch/output_lock.h"
 #include "tilepack/error/error.h"
 

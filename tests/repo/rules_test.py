@@ -93,7 +93,7 @@ class Rules(unittest.TestCase):
         self.none_of(faults, "a header's comment, after ///, is its documentation")
 
     def test_tests_mirror_the_rooms(self):
-        beside = {"cli", "repo", "install", "quality", "support"}
+        beside = {"cli", "repo", "install", "quality", "support", "fuzz"}
         found = {path.split(os.sep)[1] for path, _ in files(".cpp", ".h", ".py", ".cmake", below="tests") if path.count(os.sep) > 1}
         self.none_of(sorted(found - beside - set(ROOMS)), "tests/ROOM tests lib/tilepack/ROOM")
 

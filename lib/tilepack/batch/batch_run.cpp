@@ -8,7 +8,6 @@
 #include "tilepack/error/error.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include <new>
 #include <set>
 #include <sys/resource.h>
+#include <thread>
 
 namespace tilepack {
 namespace {
@@ -111,6 +111,10 @@ public:
     }
     for (std::size_t i = 0; i < entries.size(); ++i)
       if (current[i]) tell(i);
+    std::set<std::string> folders;
+    for (const std::size_t i : queued)
+      if (entry_at(i).verb->output != BatchOutput::pack) folders.insert(folder_of_output(entry_at(i)));
+    for (const std::string& folder : folders) remove_left_over_parts(folder);
     run_all(
         jobs, {settings.jobs, settings.memory},
         [&](std::size_t job, const std::exception_ptr& fault) { fail(queued[job], fault); },
@@ -171,10 +175,15 @@ private:
 
   void find_current() {
     std::vector<char> holds(entries.size());
-    if (!settings.all)
-      tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
+    // Two threads are what a disk's cache in memory serves; a pool that has to be woken takes longer than this.
+    const auto look = [&](std::size_t first) {
+      for (std::size_t i = first; i < entries.size(); i += 2)
         holds[i] = index.holds(entry_at(i).output, request_of(entry_at(i))) ? 1 : 0;
-      });
+    };
+    if (!settings.all) {
+      const std::jthread odd([&] { look(1); });
+      look(0);
+    }
     current.assign(entries.size(), false);
     for (const std::size_t i : in_order()) {
       const auto& after = entry_at(i).after;
@@ -204,12 +213,10 @@ private:
     Stopwatch watch_of_entry;
     EntryResult& result = results[i];
     const BatchEntry& entry = entry_at(i);
-    const bool is_pack = entry.verb->output == BatchOutput::pack;
     progress(i, "looking", 0);
     const OutputLock lock(entry.output, settings.when_busy,
                           [&](const std::string& who) { progress(i, "waiting for " + who, 0); });
-    remove_left_over_parts(entry.output);
-    remove_left_over_parts(side_file_of(entry.output, is_pack));
+    remove_left_overs(entry);
     EntryState state = state_of(manifest, entry);
     if (settings.all && !lock.has_waited()) state.reasons.emplace_back("asked for");
     result.reasons = state.reasons;
@@ -288,20 +295,25 @@ private:
   }
 
   void tell(std::size_t i) {
-    results[i].peak_memory = peak_of_process();
+    if (results[i].end != EntryEnd::current || !current[i]) results[i].peak_memory = peak_of_process();
     if (watch->ended) watch->ended(results[i]);
   }
 
   void store_index() {
     std::vector<std::string> outputs;
     for (const BatchEntry& entry : manifest.entries) outputs.push_back(entry.output);
-    remove_left_over_parts(index_file_of(manifest.file));
     index.store(outputs);
   }
 
   void finish() {
+    if (std::any_of(results.begin(), results.end(),
+                    [](const EntryResult& r) { return r.end != EntryEnd::current; }))
+      remove_left_over_parts(fs::path(manifest.file).parent_path().string());
     store_index();
-    if (!settings.cache.empty() && settings.cache_size > 0) cache.shrink_to(settings.cache_size);
+    const bool wrote = std::any_of(results.begin(), results.end(),
+                                   [](const EntryResult& result) { return result.end == EntryEnd::built; });
+    if (!settings.cache.empty() && (wrote || settings.cache_size > 0))
+      cache.shrink_to(settings.cache_size > 0 ? settings.cache_size : INT64_MAX);
   }
 
   const Manifest& manifest;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -51,13 +52,18 @@ std::optional<FilesState> state_of_files(const std::vector<std::string>& files) 
 
 // The time of a new file beside `file`; 0 where none can be made, and then no file is old enough.
 std::int64_t time_beside(const std::string& file) {
-  std::string name =
-      (std::filesystem::path(file).parent_path() / ".tilepack-clock-").string() + std::string(6, 'X');
-  const int descriptor = ::mkstemp(name.data());
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  const std::string place = folder.empty() ? "." : folder.string();
+  int descriptor =
+      ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); // has no name to be left behind
+  if (descriptor < 0) { // file systems without such files, NFS among them
+    std::string name = place + "/.tilepack-clock-" + std::string(6, 'X');
+    descriptor = ::mkstemp(name.data());
+    if (descriptor >= 0) ::unlink(name.c_str());
+  }
   if (descriptor < 0) return 0;
   struct stat status {};
   const bool good = ::fstat(descriptor, &status) == 0;
-  ::unlink(name.c_str());
   ::close(descriptor);
   return good ? nanoseconds(status.st_mtim) : 0;
 }

@@ -3,8 +3,10 @@
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/preset.h"
 #include "tilepack/bake/text_file.h"
+#include "tilepack/batch/output_lock.h"
 #include "tilepack/error/error.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/staged_folder.h"
 
 #include <fmt/format.h>
 
@@ -146,6 +148,17 @@ std::vector<HashedFile> made_files(const BatchEntry& entry) {
 
 void write_record(const BatchEntry& entry, const BuildRecord& record) {
   write_text_file(side_file_of(entry.output, makes_pack(entry)), record_text(record));
+}
+
+void remove_left_overs(const BatchEntry& entry) {
+  if (!makes_pack(entry)) return; // of files, whoever goes through their folder
+  remove_left_over_parts(entry.output);
+  std::error_code fault;
+  const fs::path folder = fs::absolute(entry.output).lexically_normal();
+  const std::string name = ".tilepack-staging";
+  if (fs::exists(folder.parent_path() / fmt::format(".{}{}", folder.filename().string(), name), fault) ||
+      fs::exists(folder / name, fault))
+    const StagedFolder recovered_and_removed(entry.output);
 }
 
 void clear_broken_pack(const BatchEntry& entry) {

@@ -46,6 +46,9 @@ void write_record(const BatchEntry& entry, const BuildRecord& record);
 /// The folder that names of outputs are relative to.
 std::string folder_of_output(const BatchEntry& entry);
 
+/// Removes what killed writers of a pack left in it and of its folder. To be called with its lock held.
+void remove_left_overs(const BatchEntry& entry);
+
 /// Takes away what is left of a pack whose pack.json is gone or broken, if all of it was made by a batch: a pack
 /// is not written over files of others, which these would be taken for. Leaves everything else alone.
 void clear_broken_pack(const BatchEntry& entry);

@@ -72,6 +72,11 @@ public:
 
 private:
   std::string resolved(const std::string& path) const {
+    // Most have nothing to be normalized, which takes the longest of all.
+    const bool is_plain = path.front() != '/' && path.front() != '.' && path.find("/.") == path.npos &&
+                          path.find("//") == path.npos && folder.find('.') == folder.npos &&
+                          folder.find("//") == folder.npos;
+    if (is_plain) return folder.empty() ? path : fmt::format("{}/{}", folder, path);
     return (fs::path(folder) / path).lexically_normal().string();
   }
 

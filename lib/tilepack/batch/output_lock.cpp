@@ -114,18 +114,20 @@ OutputLock::~OutputLock() {
 }
 
 // StagedFile calls them ".NAME.PROCESS-NUMBER.part".
-void remove_left_over_parts(const std::string& file) {
-  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : fs::path(".");
-  const std::string prefix = fmt::format(".{}.", fs::path(file).filename().string());
+void remove_left_over_parts(const std::string& folder) {
   std::error_code fault;
-  for (fs::directory_iterator at(folder, fault), end; !fault && at != end; at.increment(fault)) {
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, fault), end; !fault && at != end;
+       at.increment(fault)) {
     const std::string name = at->path().filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(".part")) continue;
+    if (!name.starts_with('.') || !name.ends_with(".part")) continue;
+    const std::size_t dash = name.rfind('-');
+    const std::size_t dot = dash == std::string::npos ? dash : name.rfind('.', dash);
     int process = 0;
-    const auto [rest, bad] = std::from_chars(name.data() + prefix.size(), name.data() + name.size(), process);
-    if (bad != std::errc() || *rest != '-' || process <= 0) continue;
+    if (dot == std::string::npos) continue;
+    const auto [rest, bad] = std::from_chars(name.data() + dot + 1, name.data() + dash, process);
+    if (bad != std::errc() || rest != name.data() + dash || process <= 0 || process == ::getpid()) continue;
     std::error_code unused;
-    if (process != ::getpid() && ::kill(process, 0) != 0 && errno == ESRCH) fs::remove(at->path(), unused);
+    if (::kill(process, 0) != 0 && errno == ESRCH) fs::remove(at->path(), unused);
   }
 }
 

@@ -32,8 +32,7 @@ private:
   bool waited = false;
 };
 
-/// Removes what killed processes left beside `file` of their unfinished versions of it. To be called with the
-/// lock held.
-void remove_left_over_parts(const std::string& file);
+/// Removes what killed processes of this machine left in `folder` of unfinished versions of files (StagedFile).
+void remove_left_over_parts(const std::string& folder);
 
 } // namespace tilepack

@@ -1,0 +1,23 @@
+#!/bin/sh
+# Fuzzes every target: sh tests/fuzz/run.sh [MINUTES a target; 1 in all unless given] [TARGET...]
+# What is found lies in build/fuzz/TARGET-*; what reaches new code is kept in build/fuzz/corpus for the next time.
+set -eu
+cd "$(dirname "$0")/../.."
+minutes=${1:-}
+if [ $# -gt 0 ]; then shift; fi
+all="pack_json manifest preset obj_mesh color_list cache_entry command_line"
+targets=${*:-$all}
+cmake -G Ninja -S tests/fuzz -B build/fuzz -D CMAKE_CXX_COMPILER="${CLANGXX:-clang++-14}" >/dev/null
+ninja -C build/fuzz ${FUZZ_BUILD_JOBS:+-j "$FUZZ_BUILD_JOBS"} $(printf 'fuzz_%s ' $targets) >/dev/null
+if [ -n "$minutes" ]; then seconds=$((minutes * 60)); else seconds=9; fi
+for target in $targets; do
+  mkdir -p "build/fuzz/corpus/$target"
+  log=build/fuzz/$target.log
+  if ! "build/fuzz/fuzz_$target" -max_total_time="$seconds" ${FUZZ_RUNS:+-runs="$FUZZ_RUNS"} -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/$target-" "build/fuzz/corpus/$target" "tests/fuzz/seeds/$target" >"$log" 2>&1; then
+    tail -n 40 "$log"
+    echo "fuzz: $target failed; the input is build/fuzz/$target-*"
+    exit 1
+  fi
+  echo "fuzz: $target: $(sed -n 's/.*number_of_executed_units: *//p' "$log") inputs, nothing found"
+done
