@@ -37,6 +37,7 @@ Verb layouts_verb();
 Verb bench_verb();
 Verb shader_verb();
 Verb batch_verb();
+Verb view_verb();
 
 /// All verbs, in the order of the help listing.
 std::span<const Verb> verb_table();

@@ -58,7 +58,7 @@ class Bench(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         figures = json.loads(result.stdout)
         self.assertEqual(figures["map"], "color")
-        self.assertEqual(len(figures["lookups"]), 15)
+        self.assertEqual(len(figures["lookups"]), 21)
         self.assertTrue(all(case["kept"] for case in figures["hard_lookups"]), figures["hard_lookups"])
         self.assertEqual(len(figures["mips_in_short"]), 5)
         self.assertNotIn(self.folder, result.stdout)

@@ -80,6 +80,10 @@ void cells(const uint16_t *ids, uint32_t first, uint32_t count, uint32_t *out) {
     out[2 * i + 1] = tilepack_place({call}x, y);
   }}
 }}
+uint32_t tile_at(const uint16_t *ids, int32_t x, int32_t y) {{
+  (void)ids;
+  return tilepack_tile({call}x, y);
+}}
 void values(const uint16_t *ids, const tilepack_texture *tiles, const tilepack_texture *corners, int mode, uint32_t count,
             tilepack_value *out) {{
   uint32_t i;
@@ -104,6 +108,9 @@ void values(const uint16_t *ids, const tilepack_texture *tiles, const tilepack_t
         out = ctypes.create_string_buffer(8 * count)
         self.library.cells(self.ids, ctypes.c_uint32(first), ctypes.c_uint32(count), out)
         return out.raw
+
+    def tile(self, x, y):
+        return self.library.tile_at(self.ids, x, y)
 
     def values(self, mode, count, levels, layers, corner_levels):
         """Of places 0..count-1: 0 nearest, 1 a whole level, 2 between levels, 3 exact, 4 the plain texture."""

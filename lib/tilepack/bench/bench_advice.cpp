@@ -49,7 +49,7 @@ bool is_own(const Bench& bench, const LookupCost& cost) {
   const auto& costs = bench.lookups.costs;
   const bool has_corners =
       std::any_of(costs.begin(), costs.end(), [](const LookupCost& c) { return c.corner_pack; });
-  return cost.mapping == bench.mapping && cost.weights == BenchWeights::single &&
+  return cost.mapping == bench.mapping && !cost.cells && cost.weights == BenchWeights::single &&
          cost.corner_pack == has_corners;
 }
 
@@ -58,7 +58,8 @@ bool clearly_faster(const LookupCost& cost, const LookupCost& than) {
 }
 
 std::string way(const LookupCost& cost) {
-  return fmt::format("'{}' mapping with {} weights", name_of(cost.mapping), name_of(cost.weights));
+  return fmt::format("'{}' mapping with {} weights{}", name_of(cost.mapping), name_of(cost.weights),
+                     cost.cells ? ", each tap from its tile" : "");
 }
 
 // The fastest of those that are as exact as the most exact of their filter.

@@ -48,11 +48,15 @@ struct Buffers {
 
 // Bucket by bucket into the same small buffer, so that the memory for results isn't what is measured.
 void look_up_frame(const FastSampler& sampler, const LookupFrame& frame, Filter filter, Weights weights,
-                   const Buffers& out) {
-  for (std::size_t at = 0; at < frame.x.size(); at += LookupFrame::bucket)
-    sampler.sample({LookupFrame::bucket, frame.tile_x.data() + at, frame.tile_y.data() + at,
-                    frame.x.data() + at, frame.y.data() + at, frame.level.data() + at},
-                   filter, weights, out.span(sampler.channels()));
+                   const Buffers& out, bool cells = false) {
+  for (std::size_t at = 0; at < frame.x.size(); at += LookupFrame::bucket) {
+    const SampleBatch batch{LookupFrame::bucket, frame.tile_x.data() + at, frame.tile_y.data() + at,
+                            frame.x.data() + at, frame.y.data() + at,      frame.level.data() + at};
+    if (cells)
+      sampler.sample_exact(batch, filter, weights, out.span(sampler.channels()));
+    else
+      sampler.sample(batch, filter, weights, out.span(sampler.channels()));
+  }
 }
 
 // The plain texture's frame: the same texels, but the unit is the whole texture.
@@ -78,9 +82,15 @@ void check_answer(const Pack& pack, int map, const FastSampler& fast, const Look
   const ReferenceSampler reference(pack, map);
   const GroundTruth truth = GroundTruth::of_level_0(pack, map);
   Buffers out(packed.channels, frame.x.size());
-  fast.sample({frame.x.size(), frame.tile_x.data(), frame.tile_y.data(), frame.x.data(), frame.y.data(),
-               frame.level.data()},
-              filter, weights, out.span(packed.channels));
+  const SampleBatch batch{frame.x.size(), frame.tile_x.data(), frame.tile_y.data(),
+                          frame.x.data(), frame.y.data(),      frame.level.data()};
+  std::optional<GroundTruth> stored;
+  if (cost.cells) {
+    stored = GroundTruth::of_stored_levels(pack, map);
+    fast.sample_exact(batch, filter, weights, out.span(packed.channels));
+  } else {
+    fast.sample(batch, filter, weights, out.span(packed.channels));
+  }
   double squares = 0;
   double full_scale = 1; // floats keep 24 bits of the largest value there is
   std::size_t count = 0;
@@ -90,7 +100,10 @@ void check_answer(const Pack& pack, int map, const FastSampler& fast, const Look
     const TileCoordinate x{frame.tile_x[i], static_cast<double>(frame.x[i])};
     const TileCoordinate y{frame.tile_y[i], static_cast<double>(frame.y[i])};
     const auto level = static_cast<double>(frame.level[i]);
-    reference.sample(x, y, level, filter, {wanted.data(), channels});
+    if (stored)
+      stored->sample(x, y, level, filter, {wanted.data(), channels});
+    else
+      reference.sample(x, y, level, filter, {wanted.data(), channels});
     truth.sample(x, y, level, filter, {ideal.data(), channels});
     for (std::size_t c = 0; c < channels; ++c) {
       const auto got = static_cast<double>(out.values[c][i]);
@@ -121,24 +134,27 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
   const Buffers out(channels, LookupFrame::bucket);
   std::vector<FastSampler> samplers;
   std::vector<std::function<void()>> runs;
-  const auto bench_kind = [&](MappingKind kind, bool corner_pack) {
+  const auto bench_kind = [&](MappingKind kind, bool corner_pack, bool cells = false) {
     Pack with = pack;
     with.mapping = mapping_of_kind(pack, kind, {256, 256}, options.seed);
     if (!corner_pack) with.corner_pack.reset();
     samplers.emplace_back(with, map);
     for (const Filter filter : {Filter::bilinear, Filter::trilinear})
       for (const Weights weights : {Weights::exact, Weights::fixed_8_8}) {
+        if (cells && weights != Weights::exact) continue;
         LookupCost cost;
         cost.target = best;
         cost.mapping = kind;
         cost.corner_pack = with.corner_pack.has_value();
+        cost.cells = cells;
         cost.filter = bench_filter(filter);
         cost.weights = weights == Weights::exact ? BenchWeights::single : BenchWeights::fixed_8_8;
         check_answer(with, map, samplers.back(), frame, filter, weights, cost);
         bench.costs.push_back(cost);
         const std::size_t number = samplers.size() - 1;
-        runs.push_back(
-            [&, number, filter, weights] { look_up_frame(samplers[number], frame, filter, weights, out); });
+        runs.push_back([&, number, filter, weights, cells] {
+          look_up_frame(samplers[number], frame, filter, weights, out, cells);
+        });
       }
   };
   for (const MappingKind kind :
@@ -146,6 +162,7 @@ void bench_configurations(const Pack& pack, int map, const BenchOptions& options
     if (kind == MappingKind::even && !has_even_pattern(pack.colors.corner)) continue;
     bench_kind(kind, false);
     if (pack.corner_pack) bench_kind(kind, true);
+    bench_kind(kind, false, true);
   }
   const auto times = in_turn(runs, {options.rounds}, samples_a_frame);
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -363,6 +380,7 @@ void bench_sizes(const Pack& pack, int map, const BenchOptions& options, LookupB
 } // namespace
 
 std::string_view corners_of(const LookupCost& cost) {
+  if (cost.cells) return "own tiles";
   return cost.corner_pack ? "corner pack" : "tiles alone";
 }
 

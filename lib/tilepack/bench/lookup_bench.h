@@ -61,8 +61,9 @@ struct LookupCost {
   double off_reference = 0; ///< largest difference from the reference sampler, 8-bit units of linear light
   double rms_truth = 0;     ///< RMS against the ground truth, 8-bit units of the encoded value
   double noise = 0;         ///< quartile_spread() of the rounds; 0.15 for fewer than four
+  bool cells = false;       ///< each tap from its own tile: FastSampler::sample_exact
 };
-std::string_view corners_of(const LookupCost& cost); ///< "corner pack", "tiles alone"
+std::string_view corners_of(const LookupCost& cost); ///< "corner pack", "tiles alone", "own tiles"
 
 /// A measured figure and what it is held to, if anything.
 struct BenchRatio {

@@ -5,6 +5,7 @@
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/sampler/address.h"
+#include "tilepack/sampler/fast_borders.h"
 #include "tilepack/sampler/fast_corners.h"
 #include "tilepack/sampler/fast_kernel.h"
 #include "tilepack/sampler/pack_texels.h"
@@ -243,6 +244,12 @@ void FastSampler::sample(const SampleBatch& batch, Filter filter, Weights weight
                          std::span<float* const> out) const {
   state->kernel.look_up(state->tables, batch, filter, weights, out.data());
   if (state->corner_pass) state->corner_pass->blend_in(batch, filter, out);
+}
+
+void FastSampler::sample_exact(const SampleBatch& batch, Filter filter, Weights weights,
+                               std::span<float* const> out) const {
+  state->kernel.look_up(state->tables, batch, filter, weights, out.data());
+  if (state->lookup) mend_borders(state->tables, batch, filter, weights, out);
 }
 
 void FastSampler::sample_parallel(const SampleBatch& batch, Filter filter, Weights weights,

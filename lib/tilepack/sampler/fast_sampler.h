@@ -44,7 +44,13 @@ public:
   /// Linear values, one array a channel: out[c][i] for sample i, c in 0..channels()-1. On this thread alone.
   void sample(const SampleBatch& batch, Filter filter, Weights weights, std::span<float* const> out) const;
 
-  /// The same on all threads that oneTBB is allowed; same bits.
+  /// The same with each tap read from the tile that it lies in: what GroundTruth::of_stored_levels finds, at every
+  /// level and place, so that no border shows but by how levels were made (with MipMode::box not at all). A corner
+  /// pack is not read. A plain texture has no borders: as sample().
+  void sample_exact(const SampleBatch& batch, Filter filter, Weights weights,
+                    std::span<float* const> out) const;
+
+  /// As sample() on all threads that oneTBB is allowed; same bits.
   void sample_parallel(const SampleBatch& batch, Filter filter, Weights weights,
                        std::span<float* const> out) const;
 
