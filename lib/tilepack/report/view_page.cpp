@@ -78,7 +78,7 @@ std::array<double, 3> mean_of(const PackedMap& map) {
   return sum;
 }
 
-std::string map_json(const PackedMap& map) {
+std::string map_script(const PackedMap& map) {
   const std::array<double, 3> mean = mean_of(map);
   return fmt::format(
       "{{\"name\": {}, \"role\": {}, \"channels\": {}, \"srgb\": {}, \"mean\": [{:.6f}, {:.6f}, {:.6f}], "
@@ -89,7 +89,7 @@ std::string map_json(const PackedMap& map) {
 
 std::string maps_json(const std::vector<PackedMap>& maps) {
   std::string text;
-  for (const PackedMap& map : maps) text += (text.empty() ? "" : ",\n") + map_json(map);
+  for (const PackedMap& map : maps) text += (text.empty() ? "" : ",\n") + map_script(map);
   return "[" + text + "]";
 }
 

@@ -1,18 +1,17 @@
 #include "tilepack/error/error.h"
 #include "tilepack/numeric/random.h"
-#include "tilepack/pack/pack_folder_read.h"
-#include "tilepack/pack/pack_read.h"
+#include "tilepack/pack/pack_folder.h"
 #include "tilepack/shader/shader_text.h"
 
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 namespace tilepack {
 namespace {
 
-void hash_file(std::uint64_t& hash, const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+void hash_stream(std::uint64_t& hash, std::istream& stream, const std::string& name) {
   std::array<char, 65536> bytes{};
   std::uint64_t length = 0;
   while (stream) {
@@ -27,19 +26,23 @@ void hash_file(std::uint64_t& hash, const std::filesystem::path& file) {
     }
     length += count;
   }
-  if (!stream.eof()) throw Error(ErrorKind::cannot_read, file.string(), "can't be read");
+  if (!stream.eof()) throw Error(ErrorKind::cannot_read, name, "can't be read");
   hash = mixed(hash ^ length) + 1;
 }
 
 } // namespace
 
 std::uint64_t pack_content_hash(const std::filesystem::path& folder_or_json) {
-  const std::filesystem::path json = pack_json_of(folder_or_json);
-  std::uint64_t hash = 0;
-  hash_file(hash, json);
-  for (const std::string& file : read_pack_description(folder_or_json).all_files())
-    hash_file(hash, folder_of(json) / file);
-  return hash;
+  return reading_pack(folder_or_json, [](const PackFolder& folder) {
+    std::uint64_t hash = 0;
+    std::istringstream json(folder.json_text());
+    hash_stream(hash, json, folder.json_path().string());
+    for (const std::string& name : folder.description().all_files()) {
+      std::ifstream file(folder.file(name), std::ios::binary);
+      hash_stream(hash, file, name);
+    }
+    return hash;
+  });
 }
 
 } // namespace tilepack
