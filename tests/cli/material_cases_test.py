@@ -216,6 +216,7 @@ class MaterialCases(CommandCase):
             self.assertIn(f"`{name}`", readme)
         words = {word for line in readme.splitlines() if line.startswith("| `") for word in line.split() if word.startswith("_")}
         self.assertEqual(words, {word for word in listed.split() if word.startswith("_")})
+        self.assertLessEqual(words, set(help_text.split()))
 
     # Normals.
 

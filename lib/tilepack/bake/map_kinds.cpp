@@ -122,6 +122,22 @@ std::string channels_text(const MapKind& kind) {
   return text;
 }
 
+// The endings, in lines of 100 columns that begin at `indent`, where the text stands.
+void append_endings(const MapKind& kind, std::size_t indent, std::string& text) {
+  constexpr std::size_t page = 100;
+  std::size_t column = indent;
+  for_endings(kind, [&](std::string_view word, int) {
+    if (column + word.size() + 2 > page) {
+      text += '\n';
+      text.append(indent, ' ');
+      column = indent;
+    }
+    text += fmt::format(" _{}", word);
+    column += word.size() + 2;
+    return false;
+  });
+}
+
 } // namespace
 
 std::span<const MapKind> map_kinds() {
@@ -155,23 +171,23 @@ std::string listed_kinds() {
   return text;
 }
 
+std::string kind_lines() {
+  std::string text;
+  for (const MapKind& kind : map_kinds()) {
+    text += fmt::format("  {:<19}", kind.name);
+    append_endings(kind, 21, text);
+    text += '\n';
+  }
+  return text;
+}
+
 std::string kinds_text() {
   std::string text;
   for (const MapKind& kind : map_kinds()) {
     text += fmt::format("{}\n  role     {}\n  values   {}\n", kind.name, name_of(kind.role), kind.values);
     if (kind.contents.size() > 1) text += fmt::format("  channels {}\n", channels_text(kind));
     text += "  endings ";
-    std::size_t column = 10;
-    for_endings(kind, [&](std::string_view word, int) {
-      constexpr std::size_t page = 100;
-      if (column + word.size() + 2 > page) {
-        text += "\n          ";
-        column = 10;
-      }
-      text += fmt::format(" _{}", word);
-      column += word.size() + 2;
-      return false;
-    });
+    append_endings(kind, 10, text);
     text += '\n';
   }
   return text;

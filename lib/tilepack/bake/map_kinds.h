@@ -43,6 +43,9 @@ std::string listed_kinds();
 /// The table for people, a kind a paragraph.
 std::string kinds_text();
 
+/// The names of all kinds with their endings alone, a line each or more of 100 columns: for help.
+std::string kind_lines();
+
 /// What the table says of the channels of a packed map, for a file that has `channels` of them: cut, or filled up
 /// with ChannelContent::other. One content is that of all channels, none stays none.
 std::vector<ChannelContent> filled_contents(std::vector<ChannelContent> contents, int channels);
