@@ -16,6 +16,8 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace tilepack::cli {
@@ -119,6 +121,26 @@ int run(const std::vector<std::string>& arguments, Console& console) {
   return run_verb(verb_named(first), {arguments.begin() + 1, arguments.end()}, console);
 }
 
+constexpr const char* no_memory = "out of memory; smaller tiles, fewer colors or a smaller image need less";
+
+// Of an exception that none of us has thrown: libraries have types of their own for what the system refuses.
+std::string refusal_in(const std::exception& error) {
+  const std::string_view what = error.what();
+  if (what.find("Insufficient memory") != what.npos) return no_memory; // cv::Exception
+  if (what.find("pthread_create") == what.npos && dynamic_cast<const std::system_error*>(&error) == nullptr)
+    return "";
+  return fmt::format(
+      "the system refuses what is needed ({}); raise its limits (ulimit -u, -v), or try --jobs 1", what);
+}
+
+// Of paths that can't be worked with; the current folder is the one that nobody names.
+std::string path_fault(const std::filesystem::filesystem_error& error) {
+  std::error_code gone;
+  static_cast<void>(std::filesystem::current_path(gone));
+  return gone ? "the current folder was removed; change to one that is there"
+              : fmt::format("{}: {}", error.path1().string(), error.code().message());
+}
+
 // The one place where an exception becomes a message and an exit code.
 int guarded_run(const std::vector<std::string>& arguments) {
   const bool has_verb = !arguments.empty() && find_verb(arguments[0]) != nullptr;
@@ -129,23 +151,24 @@ int guarded_run(const std::vector<std::string>& arguments) {
       console.last_note(something_is_in_place ? "interrupted; what was finished is kept"
                                               : "interrupted; nothing was written");
   });
+  const auto fails = [&](ErrorKind kind, const std::string& message) {
+    console.error(message);
+    return exit_code(kind);
+  };
   try {
     return run(arguments, console);
   } catch (const Interrupted& interrupt) {
     if (!said.test_and_set()) console.note(std::string("interrupted; ") + interrupt.left);
   } catch (const Error& error) {
-    console.error(error.message(FieldSpelling::option));
-    return exit_code(error.kind());
+    return fails(error.kind(), error.message(FieldSpelling::option));
   } catch (const std::bad_alloc&) {
-    console.error("out of memory; smaller tiles, fewer colors or a smaller image need less");
-    return exit_code(ErrorKind::internal);
+    return fails(ErrorKind::internal, no_memory);
   } catch (const std::filesystem::filesystem_error& error) {
-    console.error(fmt::format("{}: {}; check the path and its permissions", error.path1().string(),
-                              error.code().message()));
-    return exit_code(ErrorKind::cannot_read);
+    return fails(ErrorKind::cannot_write, path_fault(error));
   } catch (const std::exception& error) {
-    console.error(std::string("internal fault: ") + error.what());
-    return exit_code(ErrorKind::internal);
+    const std::string refusal = refusal_in(error);
+    return fails(ErrorKind::internal,
+                 refusal.empty() ? std::string("internal fault: ") + error.what() : refusal);
   }
   return -1;
 }
