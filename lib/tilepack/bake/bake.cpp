@@ -8,13 +8,13 @@
 #include "tilepack/exemplar/flatten.h"
 #include "tilepack/exemplar/object_scale.h"
 #include "tilepack/exemplar/period.h"
+#include "tilepack/numeric/side_by_side.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/stored_format_for.h"
 #include "tilepack/tileset/limits.h"
 #include "tilepack/tileset/sequential_set.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -202,7 +202,7 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   result.sample = analysed(samples, periods);
   result.sources = subset(synthesize(result.sample, synth, progress), wanted);
   report(progress, "figures", 0.0);
-  tbb::parallel_invoke(
+  both_side_by_side(
       [&] { result.report = set_report(result.sample, result.sources, size); },
       [&] { result.pack = packed(assembled(result.sources, samples), plan, options.synth.seed, progress); });
   result.pack.generator.version = TILEPACK_VERSION;

@@ -1,6 +1,6 @@
 #include "tilepack/exemplar/sample_analysis.h"
 
-#include <tbb/parallel_invoke.h>
+#include "tilepack/numeric/side_by_side.h"
 
 #include <utility>
 
@@ -8,16 +8,16 @@ namespace tilepack {
 
 SampleAnalysis analysed(FeatureImage features, const Periodicity& periods) {
   SampleAnalysis sample{std::move(features), {}, {}, periods};
-  tbb::parallel_invoke([&] { sample.statistics = SampleStatistics(sample.features); },
-                       [&] { sample.saliency = saliency_of(sample.features); });
+  both_side_by_side([&] { sample.statistics = SampleStatistics(sample.features); },
+                    [&] { sample.saliency = saliency_of(sample.features); });
   return sample;
 }
 
 SampleAnalysis analysed(std::span<const SampleMap> samples, const std::optional<Periodicity>& periods) {
   SampleAnalysis sample;
   Periodicity found;
-  tbb::parallel_invoke([&] { sample = analysed(feature_image(samples), {}); },
-                       [&] { found = periods ? *periods : detect_periods(samples); });
+  both_side_by_side([&] { sample = analysed(feature_image(samples), {}); },
+                    [&] { found = periods ? *periods : detect_periods(samples); });
   sample.periods = found;
   return sample;
 }

@@ -35,6 +35,11 @@ std::optional<FileId> file_id(const std::filesystem::path& file) {
   return FileId{status.st_dev, status.st_ino};
 }
 
+bool current_folder_was_removed() {
+  std::error_code fault;
+  return std::filesystem::current_path(fault).empty() || fault;
+}
+
 void put_in_place(const FileSwap& swap, const std::string& shown) {
   struct stat there {};
   if (::lstat(swap.target.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) // which could be exchanged as well

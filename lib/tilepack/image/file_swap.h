@@ -18,6 +18,9 @@ struct FileId {
 /// Of what has this name, which may be a link; nothing if there is none.
 std::optional<FileId> file_id(const std::filesystem::path& file);
 
+/// Relative names lead nowhere then.
+bool current_folder_was_removed();
+
 /// A finished file that waits under the name `part` to become `target`. As data, so that what was begun can be
 /// written down, and undone by another process.
 struct FileSwap {

@@ -23,12 +23,17 @@
 namespace tilepack {
 namespace {
 
+bool memory_is_limited() {
+  rlimit space{};
+  return ::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
+}
+
 [[noreturn]] void cant_start(const std::string& why) {
   throw Error(
       ErrorKind::internal, openimageio_module_name,
-      fmt::format("can't start under the limits of this process ({}); raise them, or use PNG, which does "
+      fmt::format("{}can't start under the limits of this process ({}); raise them, or use PNG, which does "
                   "without",
-                  why));
+                  memory_is_limited() ? "out of memory: " : "", why));
 }
 
 void* open_module() {

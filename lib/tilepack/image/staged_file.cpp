@@ -59,6 +59,10 @@ StagedFile::StagedFile(std::filesystem::path final_name, std::string called)
   const auto fails = [&](const std::string& what) { throw Error(ErrorKind::cannot_write, shown, what); };
   std::error_code ignored;
   if (std::filesystem::is_directory(target, ignored)) fails("is a folder; name a file in it");
+  // What its name can't be is said now, and not after the work: a temporary one may be shorter.
+  struct stat there {};
+  if (::lstat(target.c_str(), &there) != 0 && errno != ENOENT)
+    fails(fmt::format("cannot be created: {}", std::strerror(errno)));
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   for (int number = 0; number < parts_looked_at; ++number) remove_if_dead(part_of(folder, target, number));
   // The name is taken by creating it, so two processes that write the same target do not meet.
@@ -66,6 +70,8 @@ StagedFile::StagedFile(std::filesystem::path final_name, std::string called)
     const std::filesystem::path part = part_of(folder, target, number);
     if (take(part) || (errno == EEXIST && number < most_parts)) continue;
     const int reason = errno;
+    if (reason == ENOENT && target.is_relative() && current_folder_was_removed())
+      fails("the current folder was removed; go to one that is there");
     fails(reason == ENOENT
               ? fmt::format("the folder {} does not exist and can't be made", folder.string())
               : fmt::format("cannot be created in {}: {}", folder.string(), std::strerror(reason)));

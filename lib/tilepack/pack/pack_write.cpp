@@ -105,7 +105,9 @@ void check_pack_folder(const fs::path& folder) {
 
 fs::path pack_around(const fs::path& folder) {
   std::error_code fault;
-  fs::path inner = fs::weakly_canonical(fs::absolute(folder), fault);
+  fs::path inner = fs::absolute(folder, fault);
+  if (fault) return {}; // the current folder was removed, as writing will find out
+  inner = fs::weakly_canonical(inner, fault);
   if (inner.filename().empty()) inner = inner.parent_path(); // "pack/"
   for (fs::path outer = inner.parent_path(); outer != inner; inner = outer, outer = outer.parent_path()) {
     if (!fs::exists(outer / "pack.json", fault)) continue;

@@ -4,6 +4,8 @@
 #include "tilepack/pack/move_journal.h"
 #include "tilepack/pack/staging_container.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
@@ -18,6 +20,9 @@ namespace fs = std::filesystem;
 namespace {
 
 Error refused(const fs::path& where, const std::error_code& reason) {
+  if (where.is_relative() && current_folder_was_removed())
+    return Error(ErrorKind::cannot_write, where.string(),
+                 "the current folder was removed; go to one that is there");
   return Error(ErrorKind::cannot_write, where.string(),
                reason.message() + "; check the path, its permissions and the free space");
 }
@@ -224,6 +229,15 @@ void StagedFolder::clean_up() {
   if (lock) {
     if (!committed) all_back = MoveJournal::read(folder, container).roll_back();
     if (all_back) fs::remove_all(container, unused);
+    std::error_code fault;
+    if (all_back && fs::exists(container, fault) && !fault) {
+      // To remove a folder takes file descriptors. Under a name that nobody looks for it needs no lock.
+      const fs::path aside =
+          container.parent_path() / fmt::format("{}.{}", container.filename().string(), ::getpid());
+      fs::rename(container, aside, fault);
+      lock.close();
+      if (!fault) fs::remove_all(aside, unused);
+    }
     lock.close();
   }
   if (!committed && all_back)

@@ -3,6 +3,7 @@
 #include "tilepack/match/row_ssd.h"
 #include "tilepack/match/use_counts.h"
 #include "tilepack/numeric/random.h"
+#include "tilepack/numeric/side_by_side.h"
 
 #include <tbb/parallel_for.h>
 
@@ -320,7 +321,7 @@ void match_and_vote(const PatchMatchInput& input, const PatchMatchOptions& optio
   std::vector<SourceCanvas> before(count);
   std::vector<SourceCanvas> after(count);
   std::vector<std::vector<SourceTexel>> matches(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
+  each_side_by_side(count, [&](std::size_t n) {
     before[n] = after[n] = shrunk(image, canvases[n], scale);
     matches[n] = first_matches(image, options, after[n]);
   });
@@ -330,7 +331,7 @@ void match_and_vote(const PatchMatchInput& input, const PatchMatchOptions& optio
     MatchPenalties penalties = by_contrast;
     if (options.reuse_weight > 0.0)
       add_reuse_penalties(image, after, counted, options.reuse_weight, penalties);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
+    each_side_by_side(count, [&](std::size_t n) {
       PatchMatchPass run(image, penalties, fixed, options, after[n], matches[n]);
       run.search(random_bits(options.seed, "polish pass", n * 64 + static_cast<std::size_t>(pass)));
       run.vote();

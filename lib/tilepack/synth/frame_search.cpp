@@ -1,6 +1,7 @@
 #include "tilepack/synth/frame_search.h"
 
 #include "tilepack/numeric/random.h"
+#include "tilepack/numeric/side_by_side.h"
 #include "tilepack/synth/border_match_costs.h"
 #include "tilepack/synth/frame_refine.h"
 #include "tilepack/synth/strip_axes.h"
@@ -183,7 +184,7 @@ FrameStart frame_start(const FrameProblem& problem, std::uint64_t start) {
   const int scale = problem.space.scale();
   const CornerPatches corners = placed_corners(problem.space, problem.options, start);
   std::vector<StripChoices> strips(problem.strips());
-  tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
+  each_side_by_side(strips.size(), [&](std::size_t i) {
     const StripAxes axes = problem.axes(i);
     const auto [first, second] = patches_at(problem, corners, i);
     PositionMap map = problem.space.search.mismatches(end_overlap(image, shape, axes, first, second));
@@ -199,7 +200,7 @@ double end_cost(const FrameProblem& problem, const FrameStart& start) {
   const FeatureImage& image = problem.space.small_image();
   const auto most = static_cast<std::size_t>(problem.options.screened_candidates);
   std::vector<std::int64_t> least(problem.strips(), std::numeric_limits<std::int64_t>::max());
-  tbb::parallel_for(std::size_t{0}, least.size(), [&](std::size_t i) {
+  each_side_by_side(least.size(), [&](std::size_t i) {
     const auto& candidates = start.strips[i].candidates;
     const auto [first, second] = patches_at(problem, start.corners, i);
     for (std::size_t c = 0; c < std::min(most, candidates.size()); ++c)
@@ -216,7 +217,7 @@ std::vector<FrameStart> screened_starts(const FrameProblem& problem) {
   const FrameSearchOptions& options = problem.options;
   std::vector<FrameStart> starts(static_cast<std::size_t>(std::max(options.screened, options.starts)));
   std::vector<double> costs(starts.size());
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t start) {
+  each_side_by_side(starts.size(), [&](std::size_t start) {
     starts[start] = frame_start(problem, start);
     if (options.screened > options.starts) costs[start] = end_cost(problem, starts[start]);
   });
@@ -234,7 +235,7 @@ std::vector<FrameStart> screened_starts(const FrameProblem& problem) {
 void compare_insides(const FrameProblem& problem, FrameStart& start) {
   const FrameShape& shape = problem.shape();
   const FeatureImage& image = problem.space.small_image();
-  tbb::parallel_for(std::size_t{0}, start.strips.size(), [&](std::size_t i) {
+  each_side_by_side(start.strips.size(), [&](std::size_t i) {
     const StripAxes axes = problem.axes(i);
     const SourceTexel first = patches_at(problem, start.corners, i).first;
     const SourceTexel second = patches_at(problem, start.corners, i).second;
@@ -393,7 +394,7 @@ FrameSources searched_frame(const SearchSpace& space, const FrameSearchOptions& 
   const FrameProblem problem = problem_of(space, options);
   std::vector<FrameStart> starts = screened_starts(problem);
   std::vector<FoundFrame> found(starts.size());
-  tbb::parallel_for(std::size_t{0}, found.size(),
+  each_side_by_side(found.size(),
                     [&](std::size_t i) { found[i] = found_from(problem, std::move(starts[i])); });
   FrameSources best =
       std::min_element(found.begin(), found.end(), [](const FoundFrame& a, const FoundFrame& b) {

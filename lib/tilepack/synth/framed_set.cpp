@@ -4,6 +4,7 @@
 #include "tilepack/exemplar/structure.h"
 #include "tilepack/match/use_counts.h"
 #include "tilepack/numeric/random.h"
+#include "tilepack/numeric/side_by_side.h"
 #include "tilepack/seam/patch_match.h"
 #include "tilepack/seam/seam_repair.h"
 #include "tilepack/synth/frame.h"
@@ -11,9 +12,6 @@
 #include "tilepack/synth/interiors.h"
 #include "tilepack/synth/search_space.h"
 #include "tilepack/synth/strip_axes.h"
-
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <utility>
@@ -125,7 +123,7 @@ void repair_strips(const SearchSpace& space, const MatchLevels& levels, const Fr
   const std::vector<std::uint8_t> fixed = fixed_texels(axes, space.shape.guard);
   const PeriodAlignment alignment = sources.alignment.seen_from(strip_place(axes, 1));
   const UseTable no_uses = prepared(UseCounts(space.small_image().width, space.small_image().height));
-  tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t i) {
+  each_side_by_side(strips.size(), [&](std::size_t i) {
     replace_worst_patches({space.pyramid, space.search, no_uses, alignment, fixed}, settings.repair,
                           strips[i]);
   });
@@ -155,7 +153,7 @@ void repair_tiles(const SearchSpace& space, const MatchLevels& levels, const Fra
   const PeriodAlignment alignment = sources.alignment.seen_from({-margin, -margin});
   const auto fixed = fixed_texels(shape, margin);
   const UseTable uses = uses_by(space, tiles);
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+  each_side_by_side(tiles.size(), [&](std::size_t id) {
     tiles[id] = with_margin(shape, sources, frame, margin, id, tiles[id]);
     replace_worst_patches({space.pyramid, space.search, uses, alignment, fixed}, settings.repair, tiles[id]);
   });
@@ -186,7 +184,7 @@ SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
   const MatchLevels levels(space.pyramid, settings);
   const FrameSources sources = searched_frame(space, settings.frame, settings.refine, progress);
   Frame frame = joined_frame(space.image(), shape, sources);
-  tbb::parallel_invoke(
+  both_side_by_side(
       [&] { repair_strips(space, levels, sources, settings, Direction::horizontal, frame.horizontal); },
       [&] { repair_strips(space, levels, sources, settings, Direction::vertical, frame.vertical); });
   auto tiles = framed_tiles(shape, frame);

@@ -2,12 +2,11 @@
 
 #include "tilepack/match/use_counts.h"
 #include "tilepack/numeric/random.h"
+#include "tilepack/numeric/side_by_side.h"
 #include "tilepack/seam/graph_cut.h"
 #include "tilepack/synth/inside_cuts.h"
 #include "tilepack/synth/strip_axes.h"
 #include "tilepack/synth/tile_levels.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +174,7 @@ std::vector<std::vector<Choice>> listed_choices(const SearchSpace& space, const 
                        : std::min(options.choices_per_tile,
                                   std::max(options.fewest_choices, options.choices_in_all / tiles.size()));
   std::vector<std::vector<Choice>> choices(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+  each_side_by_side(tiles.size(), [&](std::size_t id) {
     PositionMap map = space.search.mismatches(tiles[id].overlap(space.pyramid.size() - 1));
     rule_out_of_step(map, alignment, space.scale());
     choices[id] = block_minima(map, limit);
@@ -218,8 +217,7 @@ InteriorChoice best_of_starts(const InteriorTask& task) {
   const InteriorOptions& options = task.options;
   std::vector<InteriorChoice> starts(std::clamp<std::size_t>(
       options.tiles_in_all_starts / task.choices.size(), 1, static_cast<std::size_t>(options.starts)));
-  tbb::parallel_for(std::size_t{0}, starts.size(),
-                    [&](std::size_t start) { starts[start] = choose_all(task, start); });
+  each_side_by_side(starts.size(), [&](std::size_t start) { starts[start] = choose_all(task, start); });
   return *std::min_element(starts.begin(), starts.end(),
                            [](const auto& a, const auto& b) { return a.cost < b.cost; });
 }
@@ -228,7 +226,7 @@ InteriorChoice best_of_starts(const InteriorTask& task) {
 void refine(const SearchSpace& space, const std::vector<TileLevels>& tiles,
             std::vector<SourceTexel>& places) {
   constexpr int distance = 2; // the rounding of the level before, and one
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+  each_side_by_side(tiles.size(), [&](std::size_t id) {
     for (std::size_t level = space.pyramid.size() - 1; level-- > 0;)
       places[id] = best_near(space.pyramid[level], tiles[id].overlap(level),
                              {2 * places[id].x, 2 * places[id].y}, distance);
@@ -241,7 +239,7 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
   std::vector<SourceCanvas> tiles(shape.tiles.size());
   const int w = shape.tile.width;
   const int h = shape.tile.height;
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+  each_side_by_side(tiles.size(), [&](std::size_t id) {
     const FrameShape::Tile& t = shape.tiles[id];
     const SourceCanvas& north = frame.horizontal[static_cast<std::size_t>(t.north)];
     const SourceCanvas& south = frame.horizontal[static_cast<std::size_t>(t.south)];
@@ -283,7 +281,7 @@ InteriorChoice chosen_interiors(const SearchSpace& space, const FrameSources& so
 void join_interiors(const FeatureImage& image, const FrameShape& shape,
                     const std::vector<SourceTexel>& interiors, std::int64_t bias,
                     std::vector<SourceCanvas>& tiles) {
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+  each_side_by_side(tiles.size(), [&](std::size_t id) {
     SourceCanvas& canvas = tiles[id];
     LaidPatch patch{{0, 0, canvas.width, canvas.height}, interiors[id], {}};
     patch.constraints.reserve(canvas.texels.size());

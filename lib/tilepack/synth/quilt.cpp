@@ -2,11 +2,11 @@
 
 #include "tilepack/match/patch_search.h"
 #include "tilepack/numeric/random.h"
+#include "tilepack/numeric/side_by_side.h"
 #include "tilepack/seam/path_cut.h"
 #include "tilepack/synth/quilt_geometry.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <limits>
@@ -181,7 +181,7 @@ EdgePatches chosen_edge_patches(const FeatureImage& image, const SynthOptions& o
   const int starts = 2 + 2 * options.effort;
   std::vector<EdgePatches> found(static_cast<std::size_t>(starts));
   std::vector<std::int64_t> costs(found.size());
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+  each_side_by_side(found.size(), [&](std::size_t i) {
     found[i] = searched(scenes, search, options, i);
     costs[i] = quilting_cost(image, options, found[i]);
   });
@@ -206,7 +206,7 @@ SourceMap quilted(const FeatureImage& image, const SynthOptions& options, const 
   const QuiltGeometry& geometry = scene.geometry;
   const std::size_t verticals = patches.vertical.size();
   std::vector<PathCut> cuts(patches.horizontal.size() * verticals * QuiltGeometry::quadrants);
-  tbb::parallel_for(std::size_t{0}, cuts.size(), [&](std::size_t i) {
+  each_side_by_side(cuts.size(), [&](std::size_t i) {
     const std::size_t pair = i / QuiltGeometry::quadrants;
     cuts[i] = quadrant_cut(scene, static_cast<int>(i % QuiltGeometry::quadrants),
                            patches.horizontal[pair / verticals], patches.vertical[pair % verticals]);
@@ -215,7 +215,7 @@ SourceMap quilted(const FeatureImage& image, const SynthOptions& options, const 
   const auto tiles = complete_edge_set(options.colors.horizontal, options.colors.vertical);
   SourceMap result{options.tile_size, options.colors, tiles, {}, options.guard};
   result.texels.resize(tiles.size());
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t id) {
+  each_side_by_side(tiles.size(), [&](std::size_t id) {
     auto& texels = result.texels[id];
     texels.resize(static_cast<std::size_t>(geometry.tile.width) *
                   static_cast<std::size_t>(geometry.tile.height));

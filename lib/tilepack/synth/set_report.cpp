@@ -1,10 +1,10 @@
 #include "tilepack/synth/set_report.h"
 
+#include "tilepack/numeric/side_by_side.h"
 #include "tilepack/seam/source_canvas.h"
 #include "tilepack/tileset/border_colors.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -300,11 +300,13 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources, S
   f.cut_length = rounded(static_cast<double>(all.size()) / tile_number);
   f.cut_mean = rounded(mean_of(all));
   f.cut_p95 = rounded(p95_of(std::move(all)));
-  tbb::parallel_invoke(
-      [&] { f.border_mean = rounded(mean_across_borders(image, sources)); },
-      [&] { f.sample_step = rounded(step_of_sample(image)); },
-      [&] { f.histogram_distance = rounded(distance_of(sample, analysed.statistics, uses)); },
+  both_side_by_side(
       [&] {
+        f.border_mean = rounded(mean_across_borders(image, sources));
+        f.sample_step = rounded(step_of_sample(image));
+      },
+      [&] {
+        f.histogram_distance = rounded(distance_of(sample, analysed.statistics, uses));
         report.landmark = most_seen(analysed.saliency, whole,
                                     sample == whole ? showing : repeated(showing, sample, whole), tiles);
       });
