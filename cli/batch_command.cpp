@@ -19,8 +19,8 @@ std::vector<std::string> command_of(const BatchEntry& entry) {
     for (const std::string& value : option.values) {
       if (!option.is_flag)
         words.push_back(fmt::format("--{}={}", option.name, value)); // a value may begin with a dash
-      else
-        words.push_back((value == "true" ? "--" : "--no-") + option.name);
+      else if (value == "true") // off is what a flag is without being named
+        words.push_back("--" + option.name);
     }
   }
   if (entry.verb->output != BatchOutput::printed) words.insert(words.end(), {"-o", entry.output});

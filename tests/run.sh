@@ -11,6 +11,9 @@ for preset in release sanitize; do
   cmake --build --preset "$preset"
 done
 
+# A minute of strangers' input in all; tests/fuzz/run.sh MINUTES takes longer.
+sh tests/fuzz/run.sh
+
 # The first failure ends this, so that the last line is always the verdict.
 for preset in release sanitize; do
   ctest --preset "$preset" --parallel "$(nproc)"

@@ -2,6 +2,7 @@
 
 import json
 import os
+import resource
 import shutil
 import subprocess
 import unittest
@@ -49,7 +50,8 @@ class WhatIsMade(Batch):
         self.samples("a", "b")
         self.manifest({"samples": "in/*.png", "output": "packs/{stem}"},
                       {"verb": "render", "packs": "packs/*", "options": {"scale": 0.5}, "output": "previews/{stem}.png"},
-                      {"verb": "validate", "pack": "packs/a", "options": {"format": "json"}, "output": "checks/a.json"},
+                      {"verb": "validate", "pack": "packs/a", "options": {"format": "json", "against-reference": False},
+                       "output": "checks/a.json"},
                       {"verb": "inspect", "packs": "packs/*", "output": "notes/{stem}.txt"},
                       {"verb": "compare", "a": "packs/a", "b": "packs/a", "output": "same.txt"})
         self.assertEqual(self.counts("m.json", "--jobs", 2), {"built": 8})
@@ -244,11 +246,29 @@ class Failures(Batch):
         for entry, saying in (
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"sede": 1}}', 'm.json:5: "sede": is no option of bake; did you mean "seed"?'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": "x"}}', 'm.json:5: "seed": \'x\' is not allowed'),
+                ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": [1, 2]}}', 'm.json:5: "seed": has several values'),
                 ('{"verb": "render", "pack": "packs/a", "output": "b.png",\n "options": {"levle": 1}}', "m.json:4: unknown option '--levle'")):
             with self.subTest(entry):
                 self.write("m.json", good % entry)
                 self.assertIn(saying, self.batch("m.json", code=3))
         self.assertIn("missing.json", self.run_tilepack("batch", "missing.json", code=2).stderr)
+
+    def test_a_full_disk_and_inputs_that_vanish_leave_old_packs_whole(self):
+        self.samples("a", "b")
+        self.manifest({"samples": "in/*.png", "output": "packs/{stem}"})
+        self.batch("m.json")
+        good = self.contents("packs")
+        self.manifest({"samples": "in/*.png", "output": "packs/{stem}", "options": {"seed": 2}})
+        full = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1500, 1500))
+        done = subprocess.run([TILEPACK, "batch", "m.json"], cwd=self.folder, capture_output=True, text=True, preexec_fn=full)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("failed: packs/a: ", done.stdout)
+        self.assertEqual(self.contents("packs"), good)
+        self.manifest({"sample": "in/a.png", "output": "packs/a"}, {"sample": "in/b.png", "output": "packs/b"})
+        os.remove(self.path("in/b.png"))
+        self.assertIn("failed: packs/b: in/b.png: ", self.batch("m.json", code=2))
+        self.assertEqual(self.contents("packs"), good)
+        self.assertEqual(self.plan("m.json", code=2), {"packs/b": "can't be made: in/b.png: No such file or directory"})
 
     def test_memory_is_a_budget(self):
         self.samples("a", "b", "c")

@@ -24,8 +24,10 @@ foreach(file ${package})
     endif()
   endforeach()
 endforeach()
-foreach(file bin/tilepack include/tilepack/bake/bake.h share/tilepack/pack.schema.json
-             share/tilepack/presets/default.json)
+foreach(file bin/tilepack include/tilepack/bake/bake.h share/tilepack/pack.schema.json share/tilepack/presets/default.json
+             share/tilepack/manifest.schema.json share/tilepack/batch_log.schema.json share/man/man1/tilepack.1
+             share/man/man1/tilepack-batch.1 share/bash-completion/completions/tilepack share/zsh/site-functions/_tilepack
+             share/fish/vendor_completions.d/tilepack.fish)
   if(NOT EXISTS ${WORK}/moved/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()
@@ -79,5 +81,20 @@ run(${WORK}/example/look_up ${WORK}/pack/pack.json)
 set(value " +[0-9]+\\.[0-9]+")
 if(NOT output MATCHES "^(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)(${value}${value}${value}${value}\n)$")
   message(FATAL_ERROR "look_up printed\n${output}")
+endif()
+
+# Packs are targets of another project's build.
+file(WRITE ${WORK}/build/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(packs LANGUAGES CXX)
+find_package(tilepack 0.1 REQUIRED)
+tilepack_add_pack(pebbles SAMPLE ${SOURCE}/samples/pebbles.png OUTPUT pebbles.pack OPTIONS --tile-size 32 --effort 0)
+")
+run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/build -B ${WORK}/build/made -D CMAKE_PREFIX_PATH=${WORK}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
+    -D CMAKE_CXX_FLAGS=${FLAGS})
+run(${CMAKE_COMMAND} --build ${WORK}/build/made)
+run(${WORK}/moved/bin/tilepack validate ${WORK}/build/made/pebbles.pack)
+run(${CMAKE_COMMAND} --build ${WORK}/build/made)
+if(NOT output MATCHES "no work to do")
+  message(FATAL_ERROR "a second build made something:\n${output}")
 endif()
 file(REMOVE_RECURSE ${WORK})

@@ -188,6 +188,7 @@ private:
 std::vector<JobEnd> run_all(const std::vector<QueuedJob>& jobs, const QueueLimits& limits,
                             const std::function<void(std::size_t job, std::exception_ptr fault)>& failed,
                             const std::function<void(std::size_t job)>& skipped) {
+  if (jobs.empty()) return {}; // without waking the pool of threads
   return Queue(jobs, limits, failed, skipped).run();
 }
 

@@ -297,6 +297,8 @@ BakeJob bake_job_of(const Manifest& manifest, const BatchEntry& entry) {
       throw Error(ErrorKind::invalid_content, where,
                   fmt::format("'{}' is not allowed; it must be {}", value, allowed));
     };
+    if (option.values.size() > 1)
+      throw Error(ErrorKind::invalid_content, where, "has several values, and bake takes one");
     std::vector<std::string> known = bake_field_names();
     if (std::find(known.begin(), known.end(), option.name) != known.end()) {
       job.settings.push_back({option.name, value, where, ErrorKind::invalid_content});
