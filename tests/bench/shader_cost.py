@@ -34,16 +34,17 @@ float noise_of(vec2 p) {
   return mix(mix(offset_of(c).x, offset_of(c + ivec2(1, 0)).x, f.x), mix(offset_of(c + ivec2(0, 1)).x, offset_of(c + ivec2(1, 1)).x, f.x), f.y);
 }
 """
-# A triangle grid: the three lattice points round a place, and their weights.
+# A grid of equilateral triangles, 3.46 to the texture's side: the corners of the one that holds a place, and its shares of them.
 TRIANGLE = """
+const float triangles = 3.4641016, root = 1.7320508;
+vec2 point_of(ivec2 v) { return vec2(float(v.x) + 0.5 * float(v.y), 0.5 * root * float(v.y)) / triangles; }
 void triangle(vec2 p, out vec3 w, out ivec2 a, out ivec2 b, out ivec2 c) {
-  vec2 skewed = mat2(1.0, 0.0, -0.57735027, 1.15470054) * p * 3.4641016;
-  ivec2 base = ivec2(floor(skewed));
-  vec3 t = vec3(fract(skewed), 0.0); t.z = 1.0 - t.x - t.y;
-  float s = step(0.0, -t.z), s2 = 2.0 * s - 1.0;
-  w = vec3(-t.z * s2, s - t.y * s2, s - t.x * s2);
-  int si = int(s);
-  a = base + ivec2(si, si); b = base + ivec2(si, 1 - si); c = base + ivec2(1 - si, si);
+  vec2 q = triangles * vec2(p.x - p.y / root, 2.0 * p.y / root), cell = floor(q), f = q - cell;
+  bool upper = f.x + f.y > 1.0;
+  a = ivec2(cell) + (upper ? ivec2(1, 1) : ivec2(0, 0));
+  b = ivec2(cell) + ivec2(1, 0);
+  c = ivec2(cell) + ivec2(0, 1);
+  w = upper ? vec3(f.x + f.y - 1.0, 1.0 - f.y, 1.0 - f.x) : vec3(1.0 - f.x - f.y, f.x, f.y);
 }
 mat2 turn_of(ivec2 cell) { float a = offset_of(cell).x * 6.2831853; return mat2(cos(a), sin(a), -sin(a), cos(a)); }
 """
@@ -129,7 +130,8 @@ class Bench:
         self.texts = {}
         for name, options in (("even", ["--mapping", "even"]), ("mix", ["--mapping", "mix"]), ("index", ["--mapping", "index"])):
             pack = os.path.join(self.folder.name, name)
-            subprocess.run([program, "bake", source, "-o", pack, "--tile-size", "64", "--effort", "0", "--mips", "box", "--quiet", *options], check=True)
+            subprocess.run([program, "bake", source, "-o", pack, "--tile-size", "64", "--effort", "0", "--mips", "box", "--quiet", *options], check=True,
+                           stdout=subprocess.DEVNULL)
             self.texts[name] = subprocess.run([program, "shader", pack, "--lang", "glsl"], check=True, capture_output=True, text=True).stdout
         levels = []
         for level in range(7):

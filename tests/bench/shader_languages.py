@@ -26,7 +26,11 @@ ROWS = [
                                               ("shader_wgsl_test", "wrong_constant"), "-"]),
     ("GLSL ES in Chromium (`view`), against `render`", [("view_test", "browser"), "1024 cells", ("view_test", "browser"),
                                                      ("view_test", "browser"), "not run", "-"]),
-    ("gdshader, OSL, TSL", ["generated, not run here"] + ["not run"] * 4 + ["-"]),
+    ("TSL by three.js and Dawn on SwiftShader, against C", [("shader_tsl_test", "cells_have"), ("shader_tsl_test", "cells_have"),
+                                                         ("shader_tsl_test", "texels"), ("shader_tsl_test", "texels"),
+                                                         ("shader_tsl_test", "cells_have"), "-"]),
+    ("gdshader, as GLSL 4.50 by glslang", [("shader_spirv_test", "godot")] + ["not run"] * 4 + ["-"]),
+    ("OSL", ["generated, not run here"] + ["not run"] * 4 + ["-"]),
 ]
 
 

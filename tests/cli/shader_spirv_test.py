@@ -48,7 +48,14 @@ class ShaderSpirvTest(ShaderCase):
         self.run_tool("spirv-val", "program.spv")
         return "program.spv"
 
-    def fragment(self, pack, hlsl):
+    def test_what_is_written_for_godot_compiles_as_glsl(self):
+        for kind in PACKS:
+            if kind in ("index", "rotated"):  # this one has an index map too
+                continue
+            with self.subTest(kind):
+                self.spirv(self.fragment(self.bake(kind), False, "gdshader"), False)
+
+    def fragment(self, pack, hlsl, language=None):
         layers, corners, ids = self.layers(pack), self.has_corners(pack), bool(self.ids_of(pack)[0])
         names = ["tiles"] + ["corners"] * corners + ["ids"] * ids
         if hlsl:
@@ -60,7 +67,7 @@ class ShaderSpirvTest(ShaderCase):
             bindings = "".join(f"layout(binding = {i}) uniform {kinds[n]} {n}_map;\n" for i, n in enumerate(names))
             arguments = [n + "_map" for n in names]
         value = f"tilepack_sample({', '.join(arguments)}, place)"
-        return self.text(pack, "hlsl" if hlsl else "glsl") + (HLSL if hlsl else GLSL).replace("BINDINGS", bindings).replace("VALUE", value)
+        return self.text(pack, language or ("hlsl" if hlsl else "glsl")) + (HLSL if hlsl else GLSL).replace("BINDINGS", bindings).replace("VALUE", value)
 
     def test_it_is_valid_and_fetches_no_more_than_a_plain_texture(self):
         for kind in PACKS:

@@ -74,10 +74,16 @@ void check(const Pack& pack, const ShaderSettings& settings) {
                        side.width, side.height),
            "bake with a smaller " + field("tile-size") + ", or a layer a tile (" + field("layout", "array") +
                ")");
+  // Mirrored, cells are counted to twice the side, which an int does not hold.
+  constexpr std::int64_t half_of_int = std::int64_t{1} << 30;
+  const std::int64_t longest = std::max(pack.mapping.size.width, pack.mapping.size.height);
+  if (language == ShaderLanguage::osl && settings.border == WrapMode::mirror && longest > half_of_int)
+    refuse(language, fmt::format("has no whole numbers for a mirrored texture of {} tiles", longest),
+           "bake with " + field("virtual-size") + " of at most 2^30 a side");
   if (pack.mapping.kind != MappingKind::index) return;
   if (!limits.ids)
     refuse(language, "reads no textures of whole numbers, which an index map is",
-           "bake with " + field("mapping", "mix") + " or " + field("mapping", "even"));
+           "bake a complete set with " + field("mapping", "mix"));
   if (std::max(pack.mapping.size.width, pack.mapping.size.height) > limits.side)
     refuse(language,
            fmt::format("can count on textures of {0} x {0} texels, the index map is {1} x {2}", limits.side,
@@ -149,7 +155,7 @@ std::vector<std::string> usage(const Pack& pack, const ShaderSettings& settings)
   }
   if (pack.mapping.kind == MappingKind::index && settings.language == ShaderLanguage::c)
     lines.emplace_back("`ids` is the index map, row by row.");
-  if (settings.language == ShaderLanguage::osl || settings.language == ShaderLanguage::tsl)
+  if (settings.language == ShaderLanguage::osl || settings.language == ShaderLanguage::gdshader)
     lines.emplace_back(
         "Not run in this language by the tests of tilepack, which run others of the same description.");
   return lines;
