@@ -97,6 +97,12 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
   if (facts && facts->size_chosen)
     text +=
         fmt::format("  {:<9} {}\n", "tile size", spelled(size_choice_text(*facts), FieldSpelling::option));
+  if (facts && facts->straightened > 0)
+    text +=
+        fmt::format("  {:<9} straightened, so that courses repeat evenly and fit tiles: they were moved by "
+                    "up to {:.1f} texels; {} leaves "
+                    "them as they are\n",
+                    "sample", facts->straightened, spelled(field("no-straighten"), FieldSpelling::option));
   return facts ? text + verdict_text(*facts) : text;
 }
 

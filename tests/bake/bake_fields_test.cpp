@@ -36,6 +36,7 @@ const std::map<std::string, Values> values_of_fields{
     {"tile-size",
      {{"4", "4096", "96x64", "auto"},
       {"3", "4097", "0", "-5", "128x", "x128", "1x2x3", "128 ", "1e3", "", "Auto"}}},
+    {"straighten", {{"false"}, {"yes", "", "0"}}},
     {"flatten", {{"1", "100"}, {"-1", "101", "50%", "0.5", ""}}},
     {"coloring", {{"edge", "corner"}, {"", "edges", "Edge"}}},
     {"colors", {{"1", "8", "3x2"}, {"0", "9", "2x9", "-1", "two", "1.5"}}},

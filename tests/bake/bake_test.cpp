@@ -96,7 +96,7 @@ TEST_CASE("flattening comes before all else", "[pack]") {
           v = quantised(v * (0.4f + 0.6f * static_cast<float>(x) / 63.0f), map.depth);
   BakeOptions options = small_options();
   const BakedPack plain = baked(samples, options);
-  CHECK(plain.flattened.empty());
+  CHECK(plain.prepared.empty());
   CHECK(plain.samples_used(samples).data() == samples.data());
   options.flatten = 100;
   const BakedPack made = baked(samples, options);

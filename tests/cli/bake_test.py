@@ -2,6 +2,7 @@
 
 import json
 import os
+import random
 import re
 import signal
 import subprocess
@@ -11,6 +12,7 @@ import unittest
 import jsonschema
 
 from command import SOURCE, TILEPACK, CommandCase, float_exr
+from png_image import write_png
 
 SMALL = ("--tile-size", 16, "--effort", 0, "--virtual-size", 8)
 
@@ -90,6 +92,29 @@ class Bake(CommandCase):
         for value in ("101", "-1", "half"):
             self.refused("bake", "sample.png", "-o", "no", *SMALL, f"--flatten={value}", code=1,
                          saying="a whole number of 0 to 100")
+
+    def test_uneven_planks_are_straightened_and_tiles_hold_them_by_default(self):
+        uneven = (1, -1, -2, 0, 1, 2, 1)  # texels, of the grooves between planks of 40
+        noise = random.Random(1)
+        rows = []
+        for y in range(290):
+            groove = any(abs(y - 18 - 40 * k - off) < 3 for k, off in enumerate(uneven))
+            plank = sum(y > 18 + 40 * k + off for k, off in enumerate(uneven))
+            rows.append([40 if groove else 110 + 7 * (plank * 5 % 4) + noise.randrange(20) for _ in range(200)])
+        write_png(self.path("planks.png"), rows, 1)
+        bake = ("bake", "planks.png", "--effort", 0, "--virtual-size", 8)
+        # 128 texels are 3.2 planks, and 120 are 3.
+        report = json.loads(self.run_tilepack(*bake, "-o", "one", "--jobs", 1, "--report-format", "json").stdout)
+        self.assertEqual(report["tile_size"], [128, 120])
+        self.assertTrue(1 < report["straightened"] < 5, report["straightened"])
+        self.assertEqual(self.pack("one")["generator"]["options"]["tile-size"], "128x120")
+        self.assertIn("straightened", self.run_tilepack(*bake, "-o", "four", "--jobs", 4).stdout)
+        self.assertEqual(self.contents("one"), self.contents("four"))
+        report = json.loads(self.run_tilepack(*bake, "-o", "as_is", "--no-straighten", "--report-format", "json").stdout)
+        self.assertNotIn("straightened", report)
+        self.assertEqual(self.pack("as_is")["generator"]["options"]["straighten"], "false")
+        self.run_tilepack(*bake, "-o", "asked", "--tile-size", 128)
+        self.assertEqual(self.pack("asked")["tile_size"], [128, 128])
 
     def test_variants_are_whole_packs_in_every_layout(self):
         self.bake(output="plain")

@@ -118,3 +118,22 @@ TEST_CASE("a side holds whole periods to within a few hundredths or less than a 
   CHECK(count(200.0, 128) == 0);
   CHECK(count(0.0, 128) == 0);
 }
+
+TEST_CASE("a checkerboard repeats after two texels, and exactly") {
+  const Periodicity found = periods_of(grey(128, 128, [](int x, int y) { return (x + y) % 2; }));
+  CHECK(found.x.length == Approx(2).margin(0.01));
+  CHECK(found.y.length == Approx(2).margin(0.01));
+  CHECK(found.x.waver == 0);
+}
+
+TEST_CASE("courses that lie even to the texel are told from those that waver") {
+  const auto stripes = [](int waver) {
+    return periods_of(grey(256, 256, [=](int x, int y) {
+      const int steps[] = {0, 1, 2, 1, 0, -1, -2, -1};
+      const int moved = y - waver * steps[(y + 16) / 32 % 8];
+      return (moved % 32 < 6 ? 0.8 : 0.2) + 0.1 * noise(x, y);
+    }));
+  };
+  CHECK(stripes(0).y.waver < 0.3);
+  CHECK(stripes(1).y.waver > 0.4);
+}

@@ -8,6 +8,7 @@
 #include "tilepack/exemplar/flatten.h"
 #include "tilepack/exemplar/object_scale.h"
 #include "tilepack/exemplar/period.h"
+#include "tilepack/exemplar/straighten.h"
 #include "tilepack/numeric/side_by_side.h"
 #include "tilepack/pack/file_name.h"
 #include "tilepack/pack/stored_format_for.h"
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 namespace tilepack {
@@ -143,6 +145,13 @@ std::vector<SampleMap> flattened_maps(std::span<const SampleMap> samples, const 
   return maps;
 }
 
+// How far tile_size_in_step() goes from the side that suits the sample.
+TileSides tile_sides(int side, Size sample) {
+  const auto most = [&](int whole) { return std::min(side + side / 3, whole / 2); };
+  const int least = side - side / 4;
+  return {{least, least}, {side, side}, {most(sample.width), most(sample.height)}};
+}
+
 // The sources of the tiles of `wanted`, in its order: ids change.
 SourceMap subset(SourceMap complete, const TileColors& wanted) {
   if (complete.tiles == wanted) return complete;
@@ -165,39 +174,51 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   SynthOptions synth = options.synth;
   check_choice(options);
   const TileColors wanted = wanted_tiles(options);
-  const Size size = samples[0].image.size();
-  std::optional<Periodicity> periods;
+  Size size = samples[0].image.size();
   BakedPack result;
   const bool look = options.fit_tile_size || options.wraps == WrapChoice::found;
   const FeatureImage features = look ? feature_image(samples) : FeatureImage();
-  if (look) periods = detect_periods(samples);
-  if (options.fit_tile_size) {
-    const int side = tile_side_for(size, object_scale(features), tile_count(wanted));
-    // Only squares can be turned.
+  std::optional<Periodicity> periods;
+  if (look || options.straighten) periods = detect_periods(samples);
+  result.wrap = options.wraps == WrapChoice::found
+                    ? detect_wrap(features, *periods)
+                    : SampleWrap{options.wraps == WrapChoice::yes, options.wraps == WrapChoice::yes};
+  const int side =
+      options.fit_tile_size ? tile_side_for(size, object_scale(features), tile_count(wanted)) : 0;
+  // A sample that wraps or repeats texel by texel is even as it is.
+  if (options.straighten && result.wrap == SampleWrap{} && !periods->x.exact && !periods->y.exact) {
+    const Size asked = synth.tile_size;
+    Straightened straight =
+        straightened(samples, *periods, side > 0 ? tile_sides(side, size) : TileSides{asked, asked, asked});
+    if (straight.done()) {
+      result.prepared = std::move(straight.maps);
+      result.straightened = straight.moved;
+      samples = result.prepared;
+      periods = straight.periods;
+      size = samples[0].image.size(); // a few texels less
+    }
+  }
+  if (side > 0) // only squares can be turned
     synth.tile_size =
         options.layout == LayoutKind::rotated ? Size{side, side} : tile_size_in_step(*periods, side, size);
-  }
   const PackingPlan plan = planned_packing(options, wanted, synth.tile_size); // before the long stage
   check_fit(samples[0], synth.tile_size);
   check_flatten(options.flatten);
   result.synth = synth;
   result.flatten = options.flatten;
   result.size_chosen = options.fit_tile_size;
-  result.wrap = options.wraps == WrapChoice::found
-                    ? detect_wrap(features, *periods)
-                    : SampleWrap{options.wraps == WrapChoice::yes, options.wraps == WrapChoice::yes};
   if (result.wrap != SampleWrap{}) {
     if (!periods) periods = detect_periods(samples); // of what is given: a cut at its end would disturb
     // A tile more, so that a window of that size may begin anywhere.
-    result.flattened = continued(samples, {size.width + (result.wrap.x ? synth.tile_size.width : 0),
-                                           size.height + (result.wrap.y ? synth.tile_size.height : 0)});
-    samples = result.flattened;
+    result.prepared = continued(samples, {size.width + (result.wrap.x ? synth.tile_size.width : 0),
+                                          size.height + (result.wrap.y ? synth.tile_size.height : 0)});
+    samples = result.prepared;
   }
   if (options.flatten > 0) {
     report(progress, "flattening", 0.0);
-    result.flattened = flattened_maps(samples, options, synth.tile_size);
-    samples = result.flattened;
-    periods.reset();
+    result.prepared = flattened_maps(samples, options, synth.tile_size);
+    samples = result.prepared;
+    if (result.straightened == 0) periods.reset(); // those of a straightened sample are exact
   }
   result.sample = analysed(samples, periods);
   result.sources = subset(synthesize(result.sample, synth, progress), wanted);

@@ -11,8 +11,8 @@
 
 namespace tilepack {
 
-/// Sample maps → flattening → synthesis → layout → mips → mapping → pack, in memory. `samples[0]` is the main
-/// map; all are as prepare_maps() leaves them.
+/// Sample maps → straightening → flattening → synthesis → layout → mips → mapping → pack, in memory. `samples[0]` is
+/// the main map; all are as prepare_maps() leaves them.
 ///
 /// Throws Error: usage for options that are out of range, contradict each
 /// other or would make a texture over most_texels_a_level; invalid_content for samples of unequal sizes or
@@ -23,7 +23,7 @@ Pack bake(std::span<const SampleMap> samples, const BakeOptions& options, const 
 /// A pack and how it came about, for reports.
 struct BakedPack {
   Pack pack;
-  SampleAnalysis sample;    ///< as used: after flattening
+  SampleAnalysis sample;    ///< as used: after straightening and flattening
   SourceMap sources;        ///< where the pack's tiles come from, by the pack's ids
   SetReport report;         ///< of these sources
   SynthOptions synth;       ///< as used: tile_size is the fitted one
@@ -32,13 +32,16 @@ struct BakedPack {
 
   SampleWrap wrap; ///< along which axes the sample was continued by itself
 
-  /// The sample maps after flattening and, where they wrap, continued by a tile to the east and south, which all
-  /// above is about; none if they are used as given.
-  std::vector<SampleMap> flattened;
+  /// Texels, the furthest that a course was moved; 0: the sample was not straightened.
+  double straightened = 0;
+
+  /// The sample maps after straightening and flattening and, where they wrap, continued by a tile to the east and
+  /// south, which all above is about; none if they are used as given.
+  std::vector<SampleMap> prepared;
 
   /// The sample maps that the tiles are copied from. `given`: those that baked() got.
   std::span<const SampleMap> samples_used(std::span<const SampleMap> given) const {
-    return flattened.empty() ? given : std::span<const SampleMap>(flattened);
+    return prepared.empty() ? given : std::span<const SampleMap>(prepared);
   }
 };
 

@@ -219,6 +219,11 @@ std::string get_wraps(const BakeOptions& o) {
   return o.wraps == WrapChoice::found ? "" : std::string(name_of(o.wraps));
 }
 
+// Recorded only where it is off: a sample that is straight makes the same pack either way.
+std::string get_straighten(const BakeOptions& o) {
+  return o.straighten ? "" : "false";
+}
+
 std::vector<BakeField> make_fields() {
   using O = BakeOptions;
   using enum FieldScope;
@@ -230,6 +235,8 @@ std::vector<BakeField> make_fields() {
   variants.get = get_variants;
   FieldValue wraps = choice(at(&O::wraps));
   wraps.get = get_wraps;
+  FieldValue straighten = flag(at(&O::straighten));
+  straighten.get = get_straighten;
   return {
       {"tile-size", tiles, read_by(Type::extent, "N|WxH|auto", set_tile_size, get_tile_size),
        fmt::format(
@@ -242,6 +249,10 @@ std::vector<BakeField> make_fields() {
        "whether the sample was made to repeat, so that tiles may show what lies across its borders; auto: "
        "found out "
        "(the default)"},
+      {"straighten", tiles, straighten,
+       "make courses that repeat unevenly (planks, rows of tiles) even, by moving them a few texels; on "
+       "unless told "
+       "otherwise"},
       {"coloring", tiles, with_consequence(choice(at(&O::synth, &SynthOptions::coloring)), follow_coloring),
        "what neighbouring tiles agree on; corner unless another option is for edge colors only"},
       {"colors", tiles, read_by(Type::extent, "N|HxV", set_colors, get_colors),

@@ -1,5 +1,6 @@
 #include "tilepack/exemplar/period.h"
 
+#include "tilepack/exemplar/courses.h"
 #include "tilepack/exemplar/exact_repeat.h"
 
 #include <fmt/format.h>
@@ -14,9 +15,8 @@
 namespace tilepack {
 namespace {
 
-constexpr int largest_side = 256; // larger samples are box-filtered down: periods are coarse things
-constexpr int shortest_period =
-    3; // texels of the plane; shorter repeats need no help, every window holds many
+constexpr int largest_side = 256;  // larger samples are box-filtered down: periods are coarse things
+constexpr int shortest_period = 2; // texels of the plane
 
 // A repeat counts when comb · sqrt(teeth - 1) reaches this: a comb of few teeth is easily met by chance. Of
 // 31 photos, those without a regular structure reached at most 0.41, those with one at least 0.58 (hand-laid
@@ -200,7 +200,7 @@ struct Repeat {
 // The first peak of the comb that reaches three quarters of the highest: a multiple of the true period scores
 // much the same, a fraction of it far less.
 Repeat strongest_repeat(const std::vector<double>& correlation) {
-  const int first = 4 * shortest_period, last = 2 * static_cast<int>(correlation.size() - 1);
+  const int first = 4 * shortest_period - 1, last = 2 * static_cast<int>(correlation.size() - 1);
   std::vector<double> scores; // at quarters of a texel
   for (int q = first; q <= last; ++q) scores.push_back(comb(correlation, q * 0.25));
   if (scores.size() < 3) return {};
@@ -214,16 +214,46 @@ Repeat strongest_repeat(const std::vector<double>& correlation) {
   return {};
 }
 
+// The mean of three rows, twice: uneven courses, a few texels off their places, still overlap.
+Plane blurred_along_columns(const Plane& plane) {
+  Plane result = plane;
+  for (int pass = 0; pass < 2; ++pass) {
+    const Plane before = result;
+    for (int y = 0; y < plane.height; ++y)
+      for (int x = 0; x < plane.width; ++x)
+        result.at(x, y) = (before.at(x, std::max(0, y - 1)) + before.at(x, y) +
+                           before.at(x, std::min(plane.height - 1, y + 1))) /
+                          3;
+  }
+  return result;
+}
+
+// What repeats most clearly along the columns of any plane, in sums of runs of a `part` of the rows.
+Repeat clearest_repeat(const std::vector<Plane>& planes, int part, bool blurred) {
+  Repeat best;
+  for (const Plane& plane : planes) {
+    const Plane runs = summed_along_rows(plane, plane.width / part);
+    const Repeat repeat =
+        strongest_repeat(vertical_autocorrelation(blurred ? blurred_along_columns(runs) : runs));
+    if (repeat.significance > best.significance) best = repeat;
+  }
+  return best;
+}
+
+constexpr int short_run = 56; // parts of a row
+constexpr int long_run = 16;
+
+struct FoundPeriod {
+  Period period;
+  bool uneven = false; // found in the blurred planes alone
+};
+
 // Short runs first: long ones blur a weave, whose rows alternate, to half its period.
-Period strongest_period(const std::vector<Plane>& planes) {
-  for (const int part : {56, 16}) {
-    Repeat best;
-    for (const Plane& plane : planes) {
-      const Repeat repeat =
-          strongest_repeat(vertical_autocorrelation(summed_along_rows(plane, plane.width / part)));
-      if (repeat.significance > best.significance) best = repeat;
-    }
-    if (best.significance >= least_significance) return {best.length, std::min(1.0, best.strength / 2)};
+FoundPeriod strongest_period(const std::vector<Plane>& planes) {
+  for (const auto& [part, blurred] : {std::pair{short_run, false}, {long_run, false}, {long_run, true}}) {
+    const Repeat best = clearest_repeat(planes, part, blurred);
+    if (best.significance >= least_significance)
+      return {{best.length, std::min(1.0, best.strength / 2)}, blurred};
   }
   return {};
 }
@@ -283,6 +313,32 @@ Periodicity unstaggered(const std::vector<Plane>& planes, const Periodicity& fou
   return result;
 }
 
+// Lines of any tones are easily taken for uneven courses. Followed to where they lie, planks are alike by 0.77 and
+// such lines by 0.32.
+constexpr double least_likeness = 0.5;
+
+constexpr double least_waver = 0.75; // texels, from which on courses count as uneven
+
+// How far courses lie off even places. Where they are alike, following them also tells their mean distance better
+// than the small planes do.
+void measure_waver(const Image& image, CourseAxis axis, bool uneven, Period& period) {
+  if (period.length <= 0) return;
+  if (period.length < 4) { // no course that could waver
+    period.waver = 0;
+    return;
+  }
+  const Courses courses = followed_courses(image, axis, period.length);
+  if (uneven && courses.likeness < least_likeness) period = {};
+  if (courses.period <= 0 || period.length <= 0) return;
+  period.waver = courses.waver();
+  if (courses.likeness < least_likeness) return;
+  period.length = courses.period;
+  // Even courses whose drift over the whole sample is less than half a texel are as many whole texels apart.
+  const double whole = std::round(period.length);
+  if (period.waver < least_waver && std::abs(period.length - whole) * courses.off.height < 0.5)
+    period.length = whole;
+}
+
 int halvings(int side) {
   int count = 0;
   while (side > 1 && side % 2 == 0) {
@@ -336,12 +392,15 @@ Periodicity detect_periods(std::span<const SampleMap> samples) {
   const std::vector<Plane> rows = features(image);
   std::vector<Plane> columns;
   for (const Plane& plane : rows) columns.push_back(transposed(plane));
-  Periodicity found = unstaggered(rows, {strongest_period(columns), strongest_period(rows)});
+  const FoundPeriod x = strongest_period(columns), y = strongest_period(rows);
+  Periodicity found = unstaggered(rows, {x.period, y.period});
   found.x.length *= shrink_of(image);
   found.y.length *= shrink_of(image);
+  measure_waver(image, CourseAxis::x, x.uneven, found.x);
+  measure_waver(image, CourseAxis::y, y.uneven, found.y);
   const ExactRepeat exact = exact_repeat(samples);
-  if (exact.x > 0) found.x = {exact.x > 1 ? exact.x : 0.0, 1.0, true};
-  if (exact.y > 0) found.y = {exact.y > 1 ? exact.y : 0.0, 1.0, true};
+  if (exact.x > 0) found.x = {exact.x > 1 ? exact.x : 0.0, 1.0, true, 0.0};
+  if (exact.y > 0) found.y = {exact.y > 1 ? exact.y : 0.0, 1.0, true, 0.0};
   return found;
 }
 

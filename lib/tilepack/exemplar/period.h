@@ -12,6 +12,7 @@ struct Period {
   double length = 0;   ///< texels, 0 if none stands out
   double strength = 0; ///< 0..1: half the difference of agreement between whole periods and halves
   bool exact = false;  ///< texel by texel, in all maps; with length 0: the same all along the axis
+  double waver = 1; ///< texels, root mean square, by which courses lie off even places; 1 where not measured
 };
 
 /// Repeats along both axes: brick courses, planks, roof tiles, woven threads, lines of text.
@@ -24,7 +25,8 @@ struct Periodicity {
 /// scored by a comb: the mean agreement at lags p, 2p, 3p … less that at p/2, 3p/2 …, so that neither a
 /// multiple nor a fraction of the true period wins. At least two periods must fit into half the sample. Looks
 /// at brightness and hue, low frequencies taken out. Of a staggered lattice, such as bricks laid by half, the
-/// periods are a brick and two courses, unless bricks differ so much that it is not told from a grid.
+/// periods are a brick and two courses, unless bricks differ so much that it is not told from a grid. Courses that
+/// lie a little unevenly, as planks do, are found in a second look, at the sample blurred along the axis.
 ///
 /// Where all maps repeat texel by texel (exemplar/exact_repeat.h), that is the period, however short.
 ///

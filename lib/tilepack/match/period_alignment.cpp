@@ -6,6 +6,9 @@
 namespace tilepack {
 namespace {
 
+constexpr double even_waver =
+    0.35; // texels: what is measured of courses that lie exactly even, with some noise
+
 double kept(const Period& period, int side) {
   return whole_periods(period, side) > 0 ? period.length : 0.0;
 }
@@ -13,7 +16,8 @@ double kept(const Period& period, int side) {
 } // namespace
 
 PeriodAlignment::PeriodAlignment(const Periodicity& periodicity, Size tile)
-    : x{kept(periodicity.x, tile.width), 0.0}, y{kept(periodicity.y, tile.height), 0.0} {}
+    : x{kept(periodicity.x, tile.width), 0.0, periodicity.x.waver < even_waver},
+      y{kept(periodicity.y, tile.height), 0.0, periodicity.y.waver < even_waver} {}
 
 PeriodAlignment PeriodAlignment::through(SourceTexel texel) const {
   PeriodAlignment moved = *this;
@@ -40,7 +44,8 @@ SourceTexel PeriodAlignment::nearest(SourceTexel texel, SourceTexel low, SourceT
 bool PeriodAlignment::Axis::allows(int texel, int step) const {
   if (period <= 0.0) return true;
   const double off = std::abs(std::remainder(texel - origin, period));
-  return off <= std::max({1.0, 0.5 * step, period / 64.0});
+  constexpr double rounding = 0.5 + 1e-6;
+  return off <= std::max(even ? rounding : std::max(1.0, period / 64.0), 0.5 * step);
 }
 
 int PeriodAlignment::Axis::nearest(int texel, int low, int high) const {

@@ -30,8 +30,8 @@ public:
   bool free() const { return x.period <= 0.0 && y.period <= 0.0; }
 
   /// Whether a part that puts `texel` at a tile's north-west texel is in step: within half a step of a search
-  /// that tries every `step`-th texel, and in any case within a texel or a sixty-fourth of the period, by
-  /// which courses waver.
+  /// that tries every `step`-th texel, and, where courses waver, in any case within a texel or a sixty-fourth of
+  /// the period.
   bool allows(SourceTexel texel, int step) const;
 
   /// The texel nearest to `texel` that is exactly in step, to rounding; of those within `low`..`high`, if
@@ -42,6 +42,7 @@ private:
   struct Axis {
     double period = 0.0; // 0: none
     double origin = 0.0;
+    bool even = false; // courses lie where they should: nothing but rounding is let pass
     bool allows(int texel, int step) const;
     int nearest(int texel, int low, int high) const;
   };

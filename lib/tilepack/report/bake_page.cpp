@@ -171,8 +171,12 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
   const Image sample = viewable(main.image, main.role, main.encoding);
   const Size tile = made.pack.tile_size;
   std::string page = fmt::format(
-      "<h1>{}</h1>\n<p>{} x {} texels, {} map{}{}; {} tile{} of {} x {} texels.</p>\n", escaped(story.sample),
-      facts.sample.width, facts.sample.height, samples.size(), samples.size() == 1 ? "" : "s",
+      "<h1>{}</h1>\n<p>{} x {} texels, {} map{}{}{}; {} tile{} of {} x {} texels.</p>\n",
+      escaped(story.sample), facts.sample.width, facts.sample.height, samples.size(),
+      samples.size() == 1 ? "" : "s",
+      made.straightened > 0
+          ? fmt::format(", straightened: courses were moved by up to {:.1f} texels", made.straightened)
+          : "",
       made.flatten > 0 ? fmt::format(", flattened by {} %", made.flatten) : "", facts.tiles,
       facts.tiles == 1 ? "" : "s", tile.width, tile.height);
   page += verdict_box(bake_verdict(facts));

@@ -348,7 +348,8 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
                   samples[0].image.size(),
                   tile_count(made.pack.tiles),
                   {},
-                  made.size_chosen};
+                  made.size_chosen,
+                  made.straightened};
   for (const SampleMap& map : samples)
     if (facts.fireflies.empty()) facts.fireflies = listed(fireflies(map));
   if (made.flatten < 100 && has_shading(facts.nature)) {

@@ -20,7 +20,7 @@ std::string tile_size_value(Size size);
 struct BakeFacts {
   SetReport report;
   SeamFigures seams;     ///< of level 0 of the first map
-  SampleTraits nature;   ///< of the sample as used: after flattening
+  SampleTraits nature;   ///< of the sample as used: after straightening and flattening
   SynthOptions synth;    ///< as used
   int flatten = 0;       ///< percent, as used
   double flat_drift = 0; ///< nature.drift with --flatten 100; only found where it matters, else 0
@@ -28,6 +28,7 @@ struct BakeFacts {
   int tiles = 0;
   std::string fireflies = {}; ///< how many of the sample and where, as listed() has it; empty: none
   bool size_chosen = false; ///< synth.tile_size was found to suit the sample
+  double straightened = 0; ///< texels, the furthest that a course of the sample was moved; 0: none was
 };
 
 /// `samples`: those that baked() got.

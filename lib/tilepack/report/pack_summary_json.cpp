@@ -212,6 +212,7 @@ std::string made_json(const PackDescription& made, const std::string& folder, co
   json["files"] = made.all_files();
   json["files"].push_back("pack.json");
   if (facts) {
+    if (facts->straightened > 0) json["straightened"] = facts->straightened;
     json["synthesis"] = synthesis_json(*facts);
     json["verdict"] = verdict_json(*facts);
     if (facts->size_chosen) json["size_choice"] = size_choice_json(*facts);

@@ -222,14 +222,18 @@ InteriorChoice best_of_starts(const InteriorTask& task) {
                            [](const auto& a, const auto& b) { return a.cost < b.cost; });
 }
 
-// Brings places found in the last level to the first.
-void refine(const SearchSpace& space, const std::vector<TileLevels>& tiles,
+// Brings places found in the last level to the first, and there in step with what repeats.
+void refine(const SearchSpace& space, const PeriodAlignment& alignment, const std::vector<TileLevels>& tiles,
             std::vector<SourceTexel>& places) {
   constexpr int distance = 2; // the rounding of the level before, and one
   each_side_by_side(tiles.size(), [&](std::size_t id) {
     for (std::size_t level = space.pyramid.size() - 1; level-- > 0;)
       places[id] = best_near(space.pyramid[level], tiles[id].overlap(level),
                              {2 * places[id].x, 2 * places[id].y}, distance);
+    const Size tile = space.shape.tile;
+    if (!alignment.free() && !alignment.allows(places[id], 1))
+      places[id] = alignment.nearest(places[id], {0, 0},
+                                     {space.image().width - tile.width, space.image().height - tile.height});
   });
 }
 
@@ -273,7 +277,7 @@ InteriorChoice chosen_interiors(const SearchSpace& space, const FrameSources& so
   const auto choices = listed_choices(space, sources.alignment, framed, levels, options);
   report(progress, "interiors", 0.5);
   InteriorChoice best = best_of_starts(interior_task(space, sources, choices, options));
-  refine(space, levels, best.places);
+  refine(space, sources.alignment, levels, best.places);
   report(progress, "interiors", 1.0);
   return best;
 }
