@@ -137,3 +137,14 @@ TEST_CASE("courses that lie even to the texel are told from those that waver") {
   CHECK(stripes(0).y.waver < 0.3);
   CHECK(stripes(1).y.waver > 0.4);
 }
+
+TEST_CASE("a sample that is nothing but lines is told from one that repeats, or has more to show") {
+  const auto tone = [](int y) { return noise(y, 99); };
+  const Periodicity brushed =
+      periods_of(grey(200, 300, [&](int x, int y) { return tone(y) + 0.1 * noise(x, y); }));
+  CHECK(brushed.y.length == 0);
+  CHECK(brushed.y.lines == 300);
+  CHECK(brushed.x.lines == 0);
+  CHECK(periods_of(grey(200, 300, [&](int x, int y) { return tone(y) + noise(x, y); })).y.lines == 0);
+  CHECK(periods_of(grey(256, 256, [](int, int y) { return y % 32 < 16 ? 0.2 : 0.8; })).y.lines == 0);
+}

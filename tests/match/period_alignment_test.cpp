@@ -59,6 +59,21 @@ TEST_CASE("where courses lie even, a texel off is out of step") {
   for (const int other : {41, 44, 84, 86}) CHECK_FALSE(fraction.allows({other, 0}, 1));
 }
 
+TEST_CASE("of a sample that is nothing but lines all parts show the same ones") {
+  Period lines;
+  lines.lines = 512;
+  const PeriodAlignment fixed({none, lines}, {128, 128});
+  CHECK_FALSE(fixed.free());
+  CHECK(fixed.has_fixed_lines());
+  CHECK(PeriodAlignment({none, lines}, {300, 300}).free()); // too few to choose from
+  const PeriodAlignment anywhere = fixed.through({77, 5});
+  CHECK(anywhere.allows({3, 192}, 1));
+  for (const int other : {5, 64, 191, 193, 320}) CHECK_FALSE(anywhere.allows({3, other}, 1));
+  CHECK(anywhere.allows({3, 196}, 8)); // of a coarse search
+  CHECK(anywhere.seen_from({0, -16}).allows({3, 176}, 1));
+  CHECK(anywhere.nearest({40, 9}, {0, 0}, {400, 400}) == SourceTexel{40, 192});
+}
+
 TEST_CASE("the nearest place in step lies within the bounds wherever one does") {
   const PeriodAlignment alignment = along_x(40.0, 120).through({10, 0});
   CHECK(alignment.nearest({48, 33}, {0, 0}, {200, 200}) == SourceTexel{50, 33});

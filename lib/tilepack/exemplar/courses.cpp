@@ -31,10 +31,10 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-using Line = std::vector<double>; // along the axis
+using CourseLine = std::vector<double>; // along the axis
 
 // Less the mean of a period to either side: a tone that drifts is no course.
-void take_out_drift(Line& line, int reach) {
+void take_out_drift(CourseLine& line, int reach) {
   std::vector<double> sums{0.0};
   for (const double v : line) sums.push_back(sums.back() + v);
   const int count = static_cast<int>(line.size());
@@ -45,14 +45,14 @@ void take_out_drift(Line& line, int reach) {
 }
 
 // What a block shows along the axis: brightness and two opponent colors, means across the block.
-using Profile = std::vector<Line>;
+using Profile = std::vector<CourseLine>;
 
 std::vector<Profile> profiles_of(const Image& image, CourseAxis axis, int blocks, double period) {
   const int channels = color_channels(image.channels());
   const int length = axis == CourseAxis::y ? image.height() : image.width();
   const int side = axis == CourseAxis::y ? image.width() : image.height();
   const int kinds = channels >= 3 ? 3 : 1;
-  std::vector<Profile> profiles(index(blocks), Profile(index(kinds), Line(index(length), 0.0)));
+  std::vector<Profile> profiles(index(blocks), Profile(index(kinds), CourseLine(index(length), 0.0)));
   tbb::parallel_for(0, blocks, [&](int b) {
     const int from = b * side / blocks, to = (b + 1) * side / blocks;
     std::array<double, 3> sum{};
@@ -71,13 +71,13 @@ std::vector<Profile> profiles_of(const Image& image, CourseAxis axis, int blocks
         p[2][index(i)] = (sum[2] - (sum[0] + sum[1]) / 2) / (to - from);
       }
     }
-    for (Line& line : profiles[index(b)]) take_out_drift(line, static_cast<int>(period));
+    for (CourseLine& line : profiles[index(b)]) take_out_drift(line, static_cast<int>(period));
   });
   return profiles;
 }
 
 // Between texel centres; nothing beyond the ends.
-double value_at(const Line& line, double place) {
+double value_at(const CourseLine& line, double place) {
   const double centre = place - 0.5;
   const double low = std::floor(centre);
   const auto i = static_cast<std::ptrdiff_t>(low);
@@ -96,11 +96,11 @@ public:
     begin = 0;
     lay_out();
     // What courses have most of, such as a groove, comes to their middle: cut in two it could not be followed.
-    const std::vector<Line> mean = mean_course();
+    const std::vector<CourseLine> mean = mean_course();
     double most = -1, middle = 0;
     for (int i = 0; i < points; ++i) {
       double change = 0;
-      for (const Line& line : mean)
+      for (const CourseLine& line : mean)
         for (int k = -points / 16; k <= points / 16; ++k) {
           const int at = (i + k + points) % points;
           const double d = line[index((at + 1) % points)] - line[index(at)];
@@ -121,9 +121,9 @@ public:
 
   void run() {
     for (int round = 0; round < rounds; ++round) {
-      const std::vector<Line> mean = mean_course();
+      const std::vector<CourseLine> mean = mean_course();
       double energy = 0;
-      for (const Line& line : mean)
+      for (const CourseLine& line : mean)
         for (const double v : line) energy += v * v;
       const Grid<double> before = off;
       for (int b = 0; b < off.width; ++b) follow(b, mean, energy, before, round > 0);
@@ -132,7 +132,7 @@ public:
 
   // The mean correlation of a course, all its blocks together, with the mean of the others.
   double likeness() const {
-    const std::vector<Line> mean = mean_course();
+    const std::vector<CourseLine> mean = mean_course();
     double sum = 0;
     for (int k = 0; k < count; ++k) {
       double cross = 0, own = 0, others = 0;
@@ -167,8 +167,8 @@ private:
     return begin + (course + (point + 0.5) / points) * period + moved;
   }
 
-  std::vector<Line> mean_course() const {
-    std::vector<Line> mean(profiles.front().size(), Line(index(points), 0.0));
+  std::vector<CourseLine> mean_course() const {
+    std::vector<CourseLine> mean(profiles.front().size(), CourseLine(index(points), 0.0));
     for (std::size_t c = 0; c < mean.size(); ++c)
       for (int i = 0; i < points; ++i) {
         double sum = 0;
@@ -180,7 +180,7 @@ private:
   }
 
   // The cheapest displacements of all courses of a block, by dynamic programming from course to course.
-  void follow(int block, const std::vector<Line>& mean, double energy, const Grid<double>& before,
+  void follow(int block, const std::vector<CourseLine>& mean, double energy, const Grid<double>& before,
               bool beside) {
     const int tried = 2 * steps + 1;
     const double half = farthest * period / 2;
@@ -291,6 +291,27 @@ Trend trend_of(const Grid<double>& off) {
 }
 
 } // namespace
+
+double share_of_lines(const Image& image, CourseAxis axis) {
+  const int length = axis == CourseAxis::y ? image.height() : image.width();
+  const int side = axis == CourseAxis::y ? image.width() : image.height();
+  const int channels = color_channels(image.channels());
+  double sum = 0, squares = 0, of_lines = 0;
+  for (int i = 0; i < length; ++i) {
+    double line = 0;
+    for (int j = 0; j < side; ++j) {
+      const auto texel = axis == CourseAxis::y ? image.texel(j, i) : image.texel(i, j);
+      double v = 0;
+      for (int c = 0; c < channels; ++c) v += static_cast<double>(texel[index(c)]);
+      line += v;
+      squares += v * v;
+    }
+    sum += line;
+    of_lines += line * (line / side);
+  }
+  const double mean_square = sum * (sum / (static_cast<double>(length) * side));
+  return squares > mean_square ? (of_lines - mean_square) / (squares - mean_square) : 0.0;
+}
 
 Courses followed_courses(const Image& image, CourseAxis axis, double around) {
   Courses result;

@@ -26,6 +26,10 @@ struct Courses {
   double at(double along, double across) const;
 };
 
+/// The share of the variance of brightness that lies between whole rows (axis y) or columns (x): 1 where every row has
+/// one tone, as in brushed metal; of photos of planks 0.7, of wood 0.3.
+double share_of_lines(const Image& image, CourseAxis axis);
+
 /// Follows courses that are about `around` texels apart: each is moved to where it is most like the mean of all,
 /// near to where its neighbours lie and by a tenth of a period at most, the mean is taken anew, and so on a few
 /// times. From course to course the displacement changes by at most 4 % of the period. Looks at brightness and hue;

@@ -13,7 +13,16 @@ struct Period {
   double strength = 0; ///< 0..1: half the difference of agreement between whole periods and halves
   bool exact = false;  ///< texel by texel, in all maps; with length 0: the same all along the axis
   double waver = 1; ///< texels, root mean square, by which courses lie off even places; 1 where not measured
+  double lines =
+      0; ///< texels of the whole sample along the axis if it is nothing but lines across it, without a
+         ///< repeat: whatever lies side by side must show the same ones. Else 0
 };
+
+/// Texels of Period::waver from which on courses count as uneven.
+constexpr double least_waver = 0.75;
+
+/// How often a side can be halved.
+int halvings(int side);
 
 /// Repeats along both axes: brick courses, planks, roof tiles, woven threads, lines of text.
 struct Periodicity {

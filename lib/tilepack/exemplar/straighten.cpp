@@ -16,19 +16,12 @@
 namespace tilepack {
 namespace {
 
-constexpr double least_waver = 0.75;   // texels, root mean square
 constexpr double most_stretch = 0.025; // of the whole
 constexpr double clearer = 1.03;       // the strength of the repeat after against before
 constexpr double as_clear = 0.97;      // the same where only the length is to fit
 constexpr double least_misfit = 0.3;   // texels, a step at every border of a tile that shows in thin lines
 constexpr double off_length = 0.02;    // by which the repeat found after may differ in length
 constexpr int wished_halvings = 5;
-
-int halvings(int side) {
-  int count = 0;
-  for (; side > 1 && side % 2 == 0; side /= 2) ++count;
-  return count;
-}
 
 // The length near `period` of which a side that is allowed holds a whole number: little stretched, near the side
 // that is wanted, and halving often.
@@ -158,12 +151,34 @@ Image weighed_by_alpha(const Image& image) {
   return weighed;
 }
 
+// The least and largest value of each channel: the filter swings a little beyond them where values jump.
+struct Range {
+  std::array<float, 4> least{}, most{};
+};
+
+Range range_of(const Image& image) {
+  Range range;
+  const auto first = image.texel(0, 0);
+  std::copy(first.begin(), first.end(), range.least.begin());
+  range.most = range.least;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const auto texel = image.texel(x, y);
+      for (std::size_t c = 0; c < texel.size(); ++c) {
+        range.least[c] = std::min(range.least[c], texel[c]);
+        range.most[c] = std::max(range.most[c], texel[c]);
+      }
+    }
+  return range;
+}
+
 Image warped(const SampleMap& map, const Warp& warp, ResampleFilter filter) {
   const ValueSpace space = value_space(map);
   const bool alpha = space.has_alpha();
   const Image from = alpha ? weighed_by_alpha(map.image) : map.image;
   Image result(warp.size.width, warp.size.height, from.channels());
   const auto channels = static_cast<std::size_t>(from.channels());
+  const Range range = range_of(map.image);
   tbb::parallel_for(0, warp.size.height, [&](int j) {
     std::array<double, 4> value{};
     std::array<double, 4> plain{};
@@ -179,7 +194,10 @@ Image warped(const SampleMap& map, const Warp& warp, ResampleFilter filter) {
       }
       if (space.has_vectors()) turn(values, jacobian_at(warp, i + 0.5, j + 0.5));
       const auto texel = result.texel(i, j);
-      for (std::size_t c = 0; c < channels; ++c) texel[c] = static_cast<float>(value[c]);
+      for (std::size_t c = 0; c < channels; ++c)
+        texel[c] = space.has_vectors()
+                       ? static_cast<float>(value[c])
+                       : std::clamp(static_cast<float>(value[c]), range.least[c], range.most[c]);
       if (space.has_vectors()) renormalise(texel);
     }
   });
@@ -218,7 +236,7 @@ Found found_along(const SampleMap& map, CourseAxis axis, const Period& period, i
   if (repeat.strength < (uneven ? clearer : as_clear) * period.strength ||
       std::abs(repeat.length / target - 1) > off_length)
     return none;
-  found.period = {target, repeat.strength, 0.0};
+  found.period = {target, repeat.strength, false, 0.0};
   return found;
 }
 

@@ -15,14 +15,18 @@ double kept(const Period& period, int side) {
 
 } // namespace
 
+PeriodAlignment::Axis::Axis(const Period& found, int tile)
+    : period(kept(found, tile)), even(found.waver < even_waver), fixed(found.lines >= 2.0 * tile) {
+  if (fixed) origin = (found.lines - tile) / 2;
+}
+
 PeriodAlignment::PeriodAlignment(const Periodicity& periodicity, Size tile)
-    : x{kept(periodicity.x, tile.width), 0.0, periodicity.x.waver < even_waver},
-      y{kept(periodicity.y, tile.height), 0.0, periodicity.y.waver < even_waver} {}
+    : x(periodicity.x, tile.width), y(periodicity.y, tile.height) {}
 
 PeriodAlignment PeriodAlignment::through(SourceTexel texel) const {
   PeriodAlignment moved = *this;
-  moved.x.origin = texel.x;
-  moved.y.origin = texel.y;
+  if (!x.fixed) moved.x.origin = texel.x;
+  if (!y.fixed) moved.y.origin = texel.y;
   return moved;
 }
 
@@ -42,6 +46,7 @@ SourceTexel PeriodAlignment::nearest(SourceTexel texel, SourceTexel low, SourceT
 }
 
 bool PeriodAlignment::Axis::allows(int texel, int step) const {
+  if (fixed) return std::abs(texel - origin) <= 0.5 * std::max(1, step);
   if (period <= 0.0) return true;
   const double off = std::abs(std::remainder(texel - origin, period));
   constexpr double rounding = 0.5 + 1e-6;
@@ -49,6 +54,7 @@ bool PeriodAlignment::Axis::allows(int texel, int step) const {
 }
 
 int PeriodAlignment::Axis::nearest(int texel, int low, int high) const {
+  if (fixed) return std::clamp(static_cast<int>(std::lround(origin)), low, std::max(low, high));
   if (period <= 0.0) return texel;
   double place = texel - std::remainder(texel - origin, period);
   if (place < low) place += period;

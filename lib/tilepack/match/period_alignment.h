@@ -12,6 +12,9 @@ namespace tilepack {
 /// without breaking its courses if they are moved against the sample by amounts that differ by whole periods.
 /// A part's move is told by the texel of the sample that its place puts at a tile's north-west texel. In
 /// texels of the sample at full size throughout.
+///
+/// Of a sample that is nothing but lines without a repeat (Period::lines) all parts show the same ones, those of its
+/// middle: lines run on from part to part, and repeat from tile to tile across them.
 class PeriodAlignment {
 public:
   /// Nothing repeats: everything is in step.
@@ -21,13 +24,16 @@ public:
   /// one that puts texel (0, 0) at a tile's north-west texel.
   PeriodAlignment(const Periodicity& periodicity, Size tile);
 
-  /// The same, but in step with a part that puts `texel` there.
+  /// The same, but in step with a part that puts `texel` there; where lines are fixed, still with these.
   PeriodAlignment through(SourceTexel texel) const;
 
   /// The same for parts whose move is told by the texel they put at `place` of a tile.
   PeriodAlignment seen_from(SourceTexel place) const;
 
-  bool free() const { return x.period <= 0.0 && y.period <= 0.0; }
+  bool free() const { return x.free() && y.free(); }
+
+  /// Whether lines are fixed along an axis, which then holds for the first part too.
+  bool has_fixed_lines() const { return x.fixed || y.fixed; }
 
   /// Whether a part that puts `texel` at a tile's north-west texel is in step: within half a step of a search
   /// that tries every `step`-th texel, and, where courses waver, in any case within a texel or a sixty-fourth of
@@ -42,7 +48,11 @@ private:
   struct Axis {
     double period = 0.0; // 0: none
     double origin = 0.0;
-    bool even = false; // courses lie where they should: nothing but rounding is let pass
+    bool even = false;  // courses lie where they should: nothing but rounding is let pass
+    bool fixed = false; // one place alone is in step, the origin
+    Axis() = default;
+    Axis(const Period& found, int tile);
+    bool free() const { return period <= 0.0 && !fixed; }
     bool allows(int texel, int step) const;
     int nearest(int texel, int low, int high) const;
   };

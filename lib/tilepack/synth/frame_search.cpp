@@ -140,7 +140,10 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
                                   static_cast<std::uint64_t>(trial);
       SourceTexel at{margin + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
                      margin + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
-      if (corner > 0) at = in_step(space, corners.alignment, at, margin);
+      if (corner > 0)
+        at = in_step(space, corners.alignment, at, margin);
+      else if (shape.alignment.has_fixed_lines())
+        at = in_step(space, shape.alignment, at, margin);
       int distance = std::numeric_limits<int>::max();
       for (const SourceTexel& other : corners.places)
         distance = std::min(distance, std::abs(at.x - other.x) + std::abs(at.y - other.y));
