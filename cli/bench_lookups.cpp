@@ -35,7 +35,7 @@ public:
       return;
     }
     throw Error(ErrorKind::cannot_write, fs::temp_directory_path().string(),
-                "no temporary folder can be made there; set TMPDIR, or use --quick, which needs none");
+                "no temporary folder can be made there; set TMPDIR, or leave --full out");
   }
   ~ScratchFolder() {
     std::error_code fault;

@@ -18,6 +18,8 @@ namespace {
 
 struct BenchArguments {
   bool spans = false;
+  bool full = false;
+  bool quick = false;
   LookupBenchArguments of_lookups;
 };
 
@@ -34,7 +36,10 @@ int bench_spans(const LookupBenchArguments& a, Console& console) {
   return 0;
 }
 
-int run_bench(const BenchArguments& a, Console& console) {
+int run_bench(BenchArguments& a, Console& console) {
+  if (a.quick && a.full)
+    throw Error(ErrorKind::usage, "--quick", "and --full contradict each other; give one");
+  a.of_lookups.quick = !a.full;
   const std::string& format = a.of_lookups.format;
   if (format != "text" && format != "json" && (format != "csv" || a.spans))
     throw Error(ErrorKind::usage, "--format",
@@ -52,10 +57,13 @@ Action declare_bench(Options& options) {
   options.flag(
       "--spans", a->spans,
       "instead, the span methods of perspective views: error in pixels and texels against ns a pixel");
-  options.option("--map", of.map, "lookups: name of the map (default: the first)").value("NAME");
+  options.option("--map", of.map, "name of the map for lookups (default: the first)").value("NAME");
   options.option("--report", of.report, "also write a page with tables and plots").value("FILE.html");
-  options.option("--format", of.format, "text (default), json, or for lookups csv").value("NAME");
-  options.option("--rounds", of.rounds, "lookups: medians are taken over so many, 1 to 1000 (default 9)")
+  options.option("--format", of.format, "what is printed: text (default), json, or for lookups csv")
+      .value("NAME");
+  options
+      .option("--rounds", of.rounds,
+              "lookups, with --full: medians are taken over so many, 1 to 1000 (default 9)")
       .check(whole_number(1, 1000))
       .value("N");
   options
@@ -63,8 +71,12 @@ Action declare_bench(Options& options) {
               "places a zone and level for the errors of mips, 16 to 1000000 (default 4096)")
       .check(whole_number(16, 1000000))
       .value("N");
-  options.flag("--quick", of.quick,
-               "one rough round of timing, for a first look; nothing is compared with OpenImageIO");
+  options.flag("--full", a->full,
+               "measure at length, for figures to go by: nine rounds, also against OpenImageIO; a minute or "
+               "two, 2 GB of "
+               "memory and 400 MB of temporary files");
+  options.flag("--quick", a->quick,
+               "a first look, one rough round of timing; so it is unless --full is given");
   add_jobs_option(options, of.jobs);
   return [a](Console& console) { return run_bench(*a, console); };
 }
@@ -72,14 +84,12 @@ Action declare_bench(Options& options) {
 } // namespace
 
 Verb bench_verb() {
-  return {
-      "bench", "measure speed against error, and mips against the truth",
-      "  tilepack bench gravel.pack --report gravel.html\n"
-      "  tilepack bench gravel.pack --quick --format csv\n"
-      "  tilepack bench --spans --report spans.html\n"
-      "Times of one thread are processor time. Without --quick it takes a minute or two, 2 GB of memory and\n"
-      "400 MB of temporary files.\n",
-      declare_bench};
+  return {"bench", "measure speed against error, and mips against the truth",
+          "  tilepack bench gravel.pack --report gravel.html\n"
+          "  tilepack bench gravel.pack --full --format csv\n"
+          "  tilepack bench --spans --report spans.html\n"
+          "Times of one thread are processor time.\n",
+          declare_bench};
 }
 
 } // namespace tilepack::cli

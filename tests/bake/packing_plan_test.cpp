@@ -70,5 +70,5 @@ TEST_CASE("fields of packing are those that drawn tiles have use for") {
   for (const BakeField& field : packing_fields()) names.push_back(field.name);
   CHECK(names == std::vector<std::string>{"seed", "layout", "scheme", "gutter", "power-of-two", "turn-filter",
                                           "border", "corner-pack", "mips", "jump-weight", "mapping",
-                                          "virtual-size", "format", "depth"});
+                                          "virtual-size", "image-format", "depth"});
 }

@@ -56,7 +56,7 @@ class BakeReport(CommandCase):
 
     def test_options_that_were_left_open_are_told(self):
         for arguments, chosen in (((), "--mapping even"), (("--mapping", "mix"), ""),
-                                  (("--tile-size", "auto"), r"--tile-size 32x32 --mapping even")):
+                                  (("--tile-size", "auto"), r"--tile-size 20x20 --mapping even")):
             self.bake("--report", "report.html", *arguments)
             options = self.page().split("<h2>Options</h2>", 1)[1]
             self.assertEqual("".join(re.findall(r"chosen: <code>(.*?)</code>", options)), chosen)
@@ -79,8 +79,8 @@ class BakeReport(CommandCase):
 
     def test_a_report_that_can_not_be_written_stops_before_the_work(self):
         self.noise_png("sample.png")
-        self.refused("bake", "sample.png", "-o", "out", *SMALL, "--report", "nowhere/report.html", code=4,
-                     saying="nowhere")
+        self.refused("bake", "sample.png", "-o", "out", *SMALL, "--report", "sample.png/report.html", code=4,
+                     saying="sample.png/report.html")
 
     def test_a_tile_that_holds_no_whole_repeats_is_told_what_would(self):
         # 24 rows a repeat, each a course of its own grey, on noise.

@@ -49,10 +49,10 @@ class Arguments(CommandCase):
     def test_the_format_of_images_is_not_that_of_the_summary(self):
         for arguments in (("bake", "a.png", "-o", "out"), ("bake", "--list-presets"),
                           ("pack", "a.png", "-o", "out", "--colors", "colors.json")):
-            for word in ("json", "text"):
+            for word in ("tiff", "png|exr", ""):
                 with self.subTest(arguments, word=word):
                     self.refused(*arguments, "--format", word, code=USAGE,
-                                 saying=(f"--format: '{word}' is not allowed", "png|exr", f"--report-format {word}"))
+                                 saying=(f"--format: '{word}' is not allowed", "text or json", "--image-format"))
 
     def test_values_that_contradict_each_other(self):
         sample = self.noise_png("sample.png")
@@ -92,7 +92,7 @@ class Arguments(CommandCase):
             '{"purpose": "p", "cost": "c", "effort": 11}': "whole number of 0 to 9",
             '{"purpose": "p", "cost": "c", "effort": "much"}': "effort",
             '{"purpose": "p", "cost": "c", "effort": 1e99}': "effort",
-            '{"purpose": "p", "effort": 1}': "cost",
+            '{"purpose": 1, "effort": 1}': "purpose",
             '{"purpose": "p", "cost": "c", "effort": 1, "effort": 2}': "stands twice",
             "{": "no valid JSON",
             "": "no valid JSON",

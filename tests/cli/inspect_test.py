@@ -126,8 +126,8 @@ class Inspect(CommandCase):
         self.refused("inspect", "pack", "--level", "9", "--picture", "x.png", code=1, saying="0 to 5")
         self.refused("inspect", "pack", "--level", "9", code=1, saying="0 to 5")
         self.refused("inspect", "pack", "--picture", "x.jpg", code=1, saying=".png")
-        self.refused("inspect", "pack", "--picture", "no/folder/x.svg", code=4, saying="x.svg")
-        self.refused("inspect", "pack", "--picture", "no/folder/x.png", code=4, saying="x.png")
+        self.refused("inspect", "pack", "--picture", "pack/pack.json/x.svg", code=4, saying="x.svg")
+        self.refused("inspect", "pack", "--picture", "pack/pack.json/x.png", code=4, saying="x.png")
         self.refused("inspect", "pack", "--tiles", "0", code=1, saying="tiles")
 
 

@@ -242,7 +242,7 @@ class Render(unittest.TestCase):
             self.refused(1, output=os.path.join(self.out, name), says=".png or .exr")
 
     def test_output_that_cannot_be_written(self):
-        self.refused(4, output=os.path.join(self.out, "missing", "picture.png"))
+        self.refused(4, output=os.path.join(self.folder, "pack", "pack.json", "picture.png"))
         folder = os.path.join(self.folder, "folder.png")
         os.makedirs(folder, exist_ok=True)
         self.refused(4, output=folder)

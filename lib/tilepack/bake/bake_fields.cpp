@@ -367,7 +367,6 @@ BakeOptions bake_options(std::span<const BakeSetting> settings) {
     options.synth.coloring = asks_for_edge_colors(settings) ? Coloring::edge : Coloring::corner;
   follow_coloring(options);
   options.fit_tile_size = true; // unless a size is set
-  options.wraps = WrapChoice::found;
   for (const BakeField& field : bake_fields())
     if (const BakeSetting* setting = setting_of(settings, field.name)) {
       try {

@@ -175,10 +175,14 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
       watch.note && !doubt.empty())
     watch.note(doubt);
-  if (watch.note) note_many_tiles(options, watch);
   baked.read_seconds = watch_of_parts.lap();
-  baked.made = watch.make ? watch.make(baked.samples, options, progress)
-                          : tilepack::baked(baked.samples, options, progress);
+  bool begun = false; // all options were found to go together
+  const Progress making = [&](std::string_view stage, double done) {
+    if (!std::exchange(begun, true) && watch.note) note_many_tiles(options, watch);
+    report(progress, stage, done);
+  };
+  baked.made = watch.make ? watch.make(baked.samples, options, making)
+                          : tilepack::baked(baked.samples, options, making);
   if (watch.note) note_no_repeat(job, baked, watch);
   if (watch.note) note_wrap(options, baked, watch);
   baked.bake_seconds = watch_of_parts.lap();

@@ -47,7 +47,7 @@ struct BakeOptions : PackingOptions {
       false; ///< tile sides follow the sample (bake/tile_size_choice.h) in place of synth.tile_size
   bool straighten = true; ///< courses that repeat unevenly are made even (exemplar/straighten.h)
   SetKind set = SetKind::complete;
-  WrapChoice wraps = WrapChoice::no; ///< bake_options of no setting: found
+  WrapChoice wraps = WrapChoice::found;
   int flatten = 0; ///< percent of slow shading taken out of the sample, 0..100 (exemplar/flatten.h)
 };
 

@@ -30,18 +30,19 @@ void advise_mips(const Bench& bench, std::vector<std::string>& lines) {
       std::find_if(mips.begin(), mips.end(), [](const MipSummary& m) { return m.mode == MipOptions{}.mode; });
   const bool tie = standard != mips.end() && as_good(standard->together, best.together);
   const MipSummary& chosen = tie ? *standard : best;
-  lines.push_back(fmt::format(
-      "Mips: {}. From afar tiles are off by {:.2f} of 255 inside and by {:.2f} at their borders, which step "
-      "by {:.2f}.",
-      tie ? fmt::format("keep '{}', the default; nothing is clearly better", chosen.mips)
-          : fmt::format("choose '{}', clearly the best of all", chosen.mips),
-      chosen.interior, chosen.border, chosen.jump));
+  lines.push_back(
+      fmt::format("Mips: {}. From afar tiles are {:.2f} grey levels (of 255) off the true picture inside and "
+                  "{:.2f} at their "
+                  "borders; the line between them is a step of {:.2f}.",
+                  tie ? fmt::format("keep '{}', the default: nothing is clearly better", chosen.mips)
+                      : fmt::format("choose '{}', clearly the best of all", chosen.mips),
+                  chosen.interior, chosen.border, chosen.jump));
   const MipSummary& nearest = least_by(mips, &MipSummary::border);
   const MipSummary& smoothest = least_by(mips, &MipSummary::jump);
-  lines.push_back(fmt::format("Mips, if you look for one thing: '{}' is nearest to the true picture at "
-                              "borders ({:.2f}), '{}' has the "
-                              "faintest lines between tiles ({:.2f}).",
-                              nearest.mips, nearest.border, smoothest.mips, smoothest.jump));
+  lines.push_back(
+      fmt::format("Mips, if you look for one thing: '{}' is nearest to the true picture at borders "
+                  "({:.2f} grey levels), '{}' has the faintest lines between tiles ({:.2f}).",
+                  nearest.mips, nearest.border, smoothest.mips, smoothest.jump));
 }
 
 // As the pack is: its mapping, its corner pack if it has one, weights of full precision.
@@ -78,26 +79,26 @@ void advise_lookups(const Bench& bench, BenchFilter filter, std::vector<std::str
   }
   if (!fastest) return;
   if (own && !clearly_faster(*fastest, *own))
-    lines.push_back(fmt::format("Lookups, {}: keep the pack's {}, {:.1f} ns a sample, {:.2f} of 255 from the "
-                                "truth; nothing as exact is "
-                                "clearly faster.",
-                                name_of(filter), way(*own), own->nanoseconds, own->rms_truth));
-  else
     lines.push_back(
-        fmt::format("Lookups, {}: {} is the fastest of the most exact, {:.1f} ns a sample{}, {:.2f} of "
-                    "255 from the truth.",
-                    name_of(filter), way(*fastest), fastest->nanoseconds,
-                    own ? fmt::format(" against the {:.1f} of the pack as it is", own->nanoseconds) : "",
-                    fastest->rms_truth));
+        fmt::format("Speed, {} filter: keep the pack's {}, {:.1f} ns a sample and {:.2f} grey levels off; "
+                    "nothing as exact is clearly faster.",
+                    name_of(filter), way(*own), own->nanoseconds, own->rms_truth));
+  else
+    lines.push_back(fmt::format(
+        "Speed, {} filter: {} is the fastest of the most exact, {:.1f} ns a sample{}, {:.2f} grey levels "
+        "off.",
+        name_of(filter), way(*fastest), fastest->nanoseconds,
+        own ? fmt::format(" against the {:.1f} of the pack as it is", own->nanoseconds) : "",
+        fastest->rms_truth));
 }
 
 void advise_coordinates(const Bench& bench, std::vector<std::string>& lines) {
   for (const CoordinateError& error : bench.coordinates)
     if (error.as_float > wrong_float) {
-      lines.push_back(fmt::format(
-          "Coordinates: a plain float is off by more than half an 8-bit unit from 2^{} texels on; "
-          "tile + fraction never is.",
-          error.log2_texels));
+      lines.push_back(fmt::format("Large worlds: a texture coordinate kept as one float is more than half a "
+                                  "grey level off from 2^{} texels "
+                                  "on; kept as a whole tile and a fraction it never is.",
+                                  error.log2_texels));
       return;
     }
 }

@@ -17,6 +17,8 @@ struct SquareLimit {
 };
 constexpr std::array limits_of_squares{SquareLimit{1, 1.18}, SquareLimit{2, 1.12}, SquareLimit{4, 1.45}};
 
+constexpr double related = 0.9; // of the step between texels that have nothing to do with each other
+
 // A texel of the image or, so that one function does for both axes, of the image turned.
 struct Turned {
   const FeatureImage& image;
@@ -46,6 +48,25 @@ double step_at(const Turned& image, int place, int side) {
   return std::sqrt(static_cast<double>(sum));
 }
 
+// What step_at(image, place, 1) would be on average if no texel had anything to do with its neighbour.
+double unrelated_step(const Turned& image) {
+  const int channels = image.image.channels - image.image.guides;
+  double variance = 0;
+  for (int c = 0; c < channels; ++c) {
+    std::int64_t sum = 0, squares = 0;
+    for (int y = 0; y < image.image.height; ++y)
+      for (int x = 0; x < image.image.width; ++x) {
+        const int v = image.image.texel(x, y)[c];
+        sum += v;
+        squares += v * v;
+      }
+    const double texels = static_cast<double>(image.image.width) * image.image.height;
+    const double mean = static_cast<double>(sum) / texels;
+    variance += static_cast<double>(squares) / texels - mean * mean;
+  }
+  return std::sqrt(2 * variance * image.across());
+}
+
 // The mean step at the places that lie whole periods from the border; 0 where the image holds no whole number of them.
 double step_at_periods(const Turned& image, const Period& period, int side) {
   const int count = whole_periods(period, image.length());
@@ -70,6 +91,7 @@ bool wraps(const Turned& image, const Period& period) {
     int places = 0;
     for (int place = first; place <= last; place += stride, ++places)
       inside += step_at(image, place, limit.side);
+    if (limit.side == 1 && inside > related * places * unrelated_step(image)) return false;
     const double usual = std::max(inside / places, step_at_periods(image, period, limit.side));
     return step_at(image, 0, limit.side) <= limit.share * usual;
   });

@@ -202,7 +202,10 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
                  cut_caption(report.figures.sample_step, std::min(facts.tiles, most_tiles), facts.tiles));
 
   page += "<h2>What the tiles show of the sample</h2>\n<div class=\"row\">\n";
-  page += figure(use_picture(sample, made.sources), use_caption(facts.tiles));
+  // What a sample that wraps is continued by is its own.
+  const Image once =
+      sample.size() == facts.sample ? sample : crop(sample, {0, 0, facts.sample.width, facts.sample.height});
+  page += figure(use_picture(once, made.sources), use_caption(facts.tiles));
   page += figure(
       rasterised(source_picture(sample, made.sources)),
       "Where the pieces come from. White, with the tile's id: the largest piece of each tile's inside. In "
