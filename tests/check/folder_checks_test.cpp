@@ -21,21 +21,21 @@ namespace fs = std::filesystem;
 namespace {
 
 // A good pack on disk, gone when the test ends.
-class PackFolder {
+class PackOnDisk {
 public:
-  explicit PackFolder(const Pack& pack = good_pack()) {
+  explicit PackOnDisk(const Pack& pack = good_pack()) {
     static int number = 0;
     root = fs::temp_directory_path() /
            ("tilepack_check_" + std::to_string(getpid()) + "_" + std::to_string(number++));
     fs::create_directories(root);
     write_pack(pack, folder());
   }
-  ~PackFolder() {
+  ~PackOnDisk() {
     std::error_code unused;
     fs::remove_all(root, unused);
   }
-  PackFolder(const PackFolder&) = delete;
-  PackFolder& operator=(const PackFolder&) = delete;
+  PackOnDisk(const PackOnDisk&) = delete;
+  PackOnDisk& operator=(const PackOnDisk&) = delete;
 
   fs::path folder() const { return root / "pack"; }
   fs::path file(const std::string& name) const { return folder() / name; }
@@ -59,7 +59,7 @@ private:
   fs::path root;
 };
 
-bool caught(const PackFolder& pack, Rule rule) {
+bool caught(const PackOnDisk& pack, Rule rule) {
   const Report report = pack.report();
   UNSCOPED_INFO(listing(report.issues));
   return has(report.issues, rule);
@@ -69,7 +69,7 @@ bool caught(const PackFolder& pack, Rule rule) {
 
 TEST_CASE("a good pack on disk has no issues, by its folder and by its pack.json") {
   for (const Depth depth : {Depth::u8, Depth::u16, Depth::f16, Depth::f32}) {
-    const PackFolder pack(good_pack({.channels = 4, .depth = depth}));
+    const PackOnDisk pack(good_pack({.channels = 4, .depth = depth}));
     const Report report = pack.report();
     INFO(listing(report.issues));
     CHECK(report.issues.empty());
@@ -85,7 +85,7 @@ TEST_CASE("without a pack.json there is nothing to check") {
 }
 
 TEST_CASE("faults of pack.json are told apart") {
-  const PackFolder pack;
+  const PackOnDisk pack;
   const std::string good = pack.text();
   const auto after = [&](const std::function<void(nlohmann::ordered_json&)>& change, Rule rule) {
     pack.write("pack.json", good);
@@ -109,7 +109,7 @@ TEST_CASE("faults of pack.json are told apart") {
 }
 
 TEST_CASE("faults of files are told apart") {
-  const PackFolder pack;
+  const PackOnDisk pack;
   const std::string good = pack.text("color_1.png");
   fs::remove(pack.file("color_1.png"));
   CHECK(caught(pack, Rule::file_missing));
@@ -134,7 +134,7 @@ TEST_CASE("faults of files are told apart") {
 }
 
 TEST_CASE("an edited texel is found on disk as in memory") {
-  const PackFolder pack;
+  const PackOnDisk pack;
   const ImageFile level = read_image(pack.file("color_0.png"));
   Image image = level.image;
   for (float& v : image.texel(5, 0)) v = v > 0.5f ? 0 : 1;
@@ -145,7 +145,7 @@ TEST_CASE("an edited texel is found on disk as in memory") {
 TEST_CASE("NaN and infinity in an EXR level are found") {
   for (const float value :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    const PackFolder pack(good_pack({.depth = Depth::f32}));
+    const PackOnDisk pack(good_pack({.depth = Depth::f32}));
     Image image = read_image(pack.file("color_2.exr")).image;
     image.texel(7, 7)[1] = value;
     write_image(pack.file("color_2.exr"), image, Depth::f32, Encoding::linear);
@@ -154,7 +154,7 @@ TEST_CASE("NaN and infinity in an EXR level are found") {
 }
 
 TEST_CASE("stray files are a note") {
-  const PackFolder pack;
+  const PackOnDisk pack;
   pack.write("color_0 (copy).png", "x");
   fs::create_directory(pack.file("old"));
   const Report report = pack.report();
@@ -163,7 +163,7 @@ TEST_CASE("stray files are a note") {
 }
 
 TEST_CASE("many faults are listed in one go") {
-  const PackFolder pack;
+  const PackOnDisk pack;
   fs::remove(pack.file("color_1.png"));
   fs::remove(pack.file("color_3.png"));
   pack.write("color_2.png", "");
@@ -182,7 +182,7 @@ TEST_CASE("many faults are listed in one go") {
 }
 
 TEST_CASE("missing files are found even beside a broken field") {
-  const PackFolder pack;
+  const PackOnDisk pack;
   fs::remove(pack.file("color_1.png"));
   pack.edit([](auto& j) {
     j["tiles"][3]["north"] = "two";
@@ -197,7 +197,7 @@ TEST_CASE("missing files are found even beside a broken field") {
 TEST_CASE("an index map is checked cell by cell") {
   Pack pack = good_pack();
   pack.mapping = {MappingKind::index, {3, 2}, {}, 0, {0, 0, 0, 0, 0, 0}};
-  const PackFolder folder(pack);
+  const PackOnDisk folder(pack);
   CHECK(folder.report().issues.empty());
   const auto write_ids = [&](const std::vector<int>& ids) {
     Image image(3, 2, 1);

@@ -39,6 +39,34 @@ class Interrupt(CommandCase):
                 self.assertEqual(message, "tilepack bake: interrupted; nothing was written\n")
                 self.assertEqual(self.contents(), before)
 
+    def test_it_is_answered_within_a_second_wherever_it_comes(self):
+        for name, side in (("sample.png", 128), ("large.png", 512)):
+            self.noise_png(name, side, side)
+        before = self.contents()
+        for arguments in (("bake", "sample.png", "-o", "out", "--coloring", "edge", "--colors", "4", "--layout", "rotated",
+                           "--tile-size", "32"),
+                          ("bake", "large.png", "-o", "out", "--effort", "9", "--colors", "3"),
+                          ("bake", "large.png", "-o", "out", "--tile-size", "auto", "--report", "x.html", "--depfile", "x.d"),
+                          ("bench", "--spans", "--report", "x.html")):
+            for delay in (0.1, 0.4, 0.9, 1.6):
+                took = []
+                for _ in range(3):  # a machine may be busy with something else
+                    process = subprocess.Popen([TILEPACK, *arguments], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                               stderr=subprocess.PIPE, text=True)
+                    time.sleep(delay)
+                    start = time.monotonic()
+                    process.send_signal(signal.SIGINT)
+                    message = process.communicate()[1]
+                    took.append(time.monotonic() - start)
+                    if process.returncode == 0 or took[-1] < 1:
+                        break
+                with self.subTest(arguments, delay=delay, message=message):
+                    if process.returncode == 0:
+                        continue  # it was faster
+                    self.assertEqual(process.returncode, -signal.SIGINT)
+                    self.assertLess(min(took), 1)
+                    self.assertEqual(self.contents(), before)
+
     def status(self, process):
         with open(f"/proc/{process.pid}/status", encoding="utf-8") as stream:
             return stream.read()

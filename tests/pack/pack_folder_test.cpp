@@ -139,7 +139,7 @@ TEST_CASE("files that a killed writer left half moved are refused if they can't 
   fs::rename(folder / "pack.json", staging / "retired" / "0");
   SECTION("they can") {
     CHECK(is_whole(read_pack(folder)));
-    CHECK_FALSE(fs::exists(staging / "moves"));
+    CHECK_FALSE(fs::exists(staging));
   }
   SECTION("they can't") {
     std::ofstream(staging / "retired" / "2") << "an image";

@@ -12,11 +12,21 @@
 
 namespace tilepack {
 
+namespace {
+
+// Of what the process may have, and no fault of the file.
+bool is_lack(int reason) {
+  return reason == EMFILE || reason == ENFILE || reason == ENOMEM;
+}
+
+} // namespace
+
 FileBytes::FileBytes(const std::filesystem::path& file) : name(file.string()) {
   // Not blocking: opening a pipe must not wait for a writer.
   descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0)
-    throw Error(ErrorKind::cannot_read, name, fmt::format("cannot be opened: {}", std::strerror(errno)));
+    throw Error(is_lack(errno) ? ErrorKind::internal : ErrorKind::cannot_read, name,
+                fmt::format("cannot be opened: {}", std::strerror(errno)));
   struct stat status {};
   if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(descriptor);

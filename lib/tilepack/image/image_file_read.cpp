@@ -12,6 +12,7 @@
 #include <Imath/half.h>
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -41,6 +42,9 @@ constexpr int most_file_channels = 1024;
 
 Error unreadable(const std::string& name, const std::string& reason) {
   std::string line = reason.substr(0, reason.find('\n'));
+  for (const int lack : {EMFILE, ENFILE, ENOMEM}) // of what the process may have, and no fault of the file
+    if (line.find(std::strerror(lack)) != std::string::npos)
+      return Error(ErrorKind::internal, name, "can't be opened: " + line);
   if (line.find("ubsampled channels") != std::string::npos) // OpenImageIO's word for it
     return Error(
         ErrorKind::invalid_content, name,

@@ -87,7 +87,10 @@ FolderState settle(const fs::path& folder) {
       FileDescriptor lock;
       const Lock state = try_lock(container, lock);
       if (state == Lock::busy && moving) return FolderState::in_between;
-      if (state == Lock::held) recover(folder, container);
+      if (state == Lock::held) {
+        recover(folder, container);
+        fs::remove(container);
+      }
     } catch (const std::exception& fault) {
       if (moving)
         throw Error(
