@@ -9,8 +9,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const auto pack = tilepack::parsed_pack_json({reinterpret_cast<const char*>(data), size}, "pack.json");
-    for (const std::string& file : pack.all_files())
-      if (file.empty() || file.front() == '/') __builtin_trap(); // leads out of the folder
+    for (const auto& map : pack.map_files)
+      for (const auto& texture : map)
+        if (texture.file.empty() || texture.file.front() == '/') __builtin_trap(); // leads out of the folder
   } catch (const tilepack::Error&) {
   }
   return 0;

@@ -10,11 +10,12 @@ targets=${*:-$all}
 cmake -G Ninja -S tests/fuzz -B build/fuzz -D CMAKE_CXX_COMPILER="${CLANGXX:-clang++-14}" >/dev/null
 ninja -C build/fuzz ${FUZZ_BUILD_JOBS:+-j "$FUZZ_BUILD_JOBS"} $(printf 'fuzz_%s ' $targets) >/dev/null
 if [ -n "$minutes" ]; then seconds=$((minutes * 60)); else seconds=9; fi
+made=$PWD/build/fuzz # in full: a target may go to another folder
 for target in $targets; do
-  mkdir -p "build/fuzz/corpus/$target"
-  log=build/fuzz/$target.log
-  if ! "build/fuzz/fuzz_$target" -max_total_time="$seconds" ${FUZZ_RUNS:+-runs="$FUZZ_RUNS"} -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
-    -artifact_prefix="build/fuzz/$target-" "build/fuzz/corpus/$target" "tests/fuzz/seeds/$target" >"$log" 2>&1; then
+  mkdir -p "$made/corpus/$target"
+  log=$made/$target.log
+  if ! "$made/fuzz_$target" -max_total_time="$seconds" ${FUZZ_RUNS:+-runs="$FUZZ_RUNS"} -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="$made/$target-" "$made/corpus/$target" "$PWD/tests/fuzz/seeds/$target" >"$log" 2>&1; then
     tail -n 40 "$log"
     echo "fuzz: $target failed; the input is build/fuzz/$target-*"
     exit 1
