@@ -5,9 +5,7 @@
 #include "tilepack/json/json_value.h"
 #include "tilepack/layout/layout.h"
 #include "tilepack/report/html_page.h"
-#include "tilepack/sampler/pack_texels.h"
 #include "tilepack/shader/shader_text.h"
-#include "tilepack/tileset/value_space.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,6 @@
-#include "tilepack/error/error.h"
 #include "tilepack/error/field.h"
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/shader/lookup_description.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
