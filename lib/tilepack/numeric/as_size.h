@@ -4,7 +4,7 @@
 
 namespace tilepack {
 
-// A count or coordinate that is never negative, as the standard library counts.
+/// A count or coordinate that is never negative, as the standard library counts.
 constexpr std::size_t as_size(int i) {
   return static_cast<std::size_t>(i);
 }
