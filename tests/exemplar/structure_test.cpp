@@ -65,6 +65,26 @@ TEST_CASE("what a flat seam costs follows the variance of the sample") {
   CHECK(with_structure(plain, {1.0, 0.0}).flat_seam == 0);
 }
 
+TEST_CASE("differences are seen on what is flat, and lost in what is busy") {
+  FeatureImage image{96, 48, 1, {}}; // noise in the west, none in the east
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      image.values.push_back(static_cast<std::uint8_t>(x < 48 ? 90 + (x * 7 + y * 13 + x * y) % 41 : 110));
+  const FeatureImage seen = with_structure(image);
+  REQUIRE(seen.sensitivity.size() == 96 * 48);
+  const auto at = [&](const FeatureImage& i, int x, int y) {
+    return i.sensitivity[static_cast<std::size_t>(y * i.width + x)];
+  };
+  CHECK(at(seen, 80, 24) > 2 * at(seen, 20, 24));
+  double sum = 0;
+  for (const auto s : seen.sensitivity) sum += s;
+  CHECK(sum / (96 * 48) == Approx(sensitivity_unit).epsilon(0.02));
+  CHECK(at(halved(seen), 40, 12) == at(seen, 80, 24));
+  StructureOptions wide;
+  wide.sensitivity_floor = 100; // next to nothing is told apart
+  CHECK(at(with_structure(image, wide), 80, 24) <= 1.05 * at(with_structure(image, wide), 20, 24));
+}
+
 TEST_CASE("an image with all channels gets none of structure") {
   FeatureImage full{8, 8, max_feature_channels, {}};
   full.values.resize(64 * max_feature_channels);

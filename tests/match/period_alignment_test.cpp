@@ -50,11 +50,11 @@ TEST_CASE("parts are in step that lie whole periods apart, along axes where a ti
 }
 
 TEST_CASE("where courses lie even, a texel off is out of step") {
-  const PeriodAlignment even = PeriodAlignment({{32.0, 1.0, 0.1}, none}, {128, 128}).through({5, 0});
+  const PeriodAlignment even = PeriodAlignment({{32.0, 1.0, false, 0.1}, none}, {128, 128}).through({5, 0});
   for (const int whole : {5, 37, 69, -27}) CHECK(even.allows({whole, 0}, 1));
   for (const int other : {4, 6, 36, 38}) CHECK_FALSE(even.allows({other, 0}, 1));
   CHECK(even.allows({39, 0}, 4)); // of a coarse search
-  const PeriodAlignment fraction = PeriodAlignment({{42.5, 1.0, 0.1}, none}, {85, 85}).through({0, 0});
+  const PeriodAlignment fraction = PeriodAlignment({{42.5, 1.0, false, 0.1}, none}, {85, 85}).through({0, 0});
   for (const int near : {0, 42, 43, 85}) CHECK(fraction.allows({near, 0}, 1));
   for (const int other : {41, 44, 84, 86}) CHECK_FALSE(fraction.allows({other, 0}, 1));
 }

@@ -22,7 +22,8 @@ TEST_CASE("strips reach as far as what a sample shows is large, within bounds") 
 TEST_CASE("cuts are drawn outward the more, the more a sample varies") {
   const FramedSetSettings plain = settings_for(5, 1);
   CHECK(fitted(plain, 5.0, 0, {128, 128}, false).interiors.bias == plain.interiors.bias);
-  CHECK(fitted(plain, 5.0, 5000, {128, 128}, false).interiors.bias == 300);
+  CHECK(fitted(plain, 5.0, 5000, {128, 128}, false).interiors.bias == 400);
+  CHECK(fitted(plain, 5.0, 5000, {128, 128}, false).set_repair.price == 400);
 }
 
 TEST_CASE("no effort does less than the one before it") {
@@ -36,6 +37,9 @@ TEST_CASE("no effort does less than the one before it") {
     CHECK(more.repair.patches >= less.repair.patches);
     CHECK(more.fine_match.passes >= less.fine_match.passes);
     CHECK(more.fine_match.sweeps >= less.fine_match.sweeps);
+    CHECK(more.set_repair.corner_tries >= less.set_repair.corner_tries);
+    CHECK(more.set_repair.edge_spots >= less.set_repair.edge_spots);
+    CHECK(more.set_repair.rounds >= less.set_repair.rounds);
     CHECK(more.coarse_match.passes == 0);
   }
 }

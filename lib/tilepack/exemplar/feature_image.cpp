@@ -162,7 +162,8 @@ FeatureImage feature_image(std::span<const SampleMap> samples) {
 }
 
 FeatureImage halved(const FeatureImage& image) {
-  FeatureImage result{image.width / 2, image.height / 2, image.channels, {}, image.guides, image.flat_seam};
+  FeatureImage result{
+      image.width / 2, image.height / 2, image.channels, {}, image.guides, image.flat_seam, {}};
   const std::size_t row = static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.channels);
   result.values.resize(row * static_cast<std::size_t>(result.height));
   tbb::parallel_for(0, result.height, [&](int y) {
@@ -176,6 +177,18 @@ FeatureImage halved(const FeatureImage& image) {
       }
     }
   });
+  if (image.sensitivity.empty()) return result;
+  result.sensitivity.reserve(static_cast<std::size_t>(result.width) *
+                             static_cast<std::size_t>(result.height));
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x) {
+      const auto at = [&](int i, int j) {
+        return image.sensitivity[static_cast<std::size_t>(2 * y + j) * static_cast<std::size_t>(image.width) +
+                                 static_cast<std::size_t>(2 * x + i)];
+      };
+      result.sensitivity.push_back(
+          static_cast<std::uint8_t>((at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1) + 2) / 4));
+    }
   return result;
 }
 

@@ -30,6 +30,9 @@ struct FeatureImage {
   std::vector<std::uint8_t> values; ///< row by row, channels interleaved
   int guides = 0; ///< of the channels, the last so many: they guide comparisons, but nothing is seen of them
   int flat_seam = 0; ///< with guides: what a seam costs beyond its difference where the last channel is 255
+  /// How well a difference is seen at each texel, in 1 / sensitivity_unit; none: equally well everywhere. What is
+  /// busy hides differences, and what is flat shows them.
+  std::vector<std::uint8_t> sensitivity = {};
 
   const std::uint8_t* texel(int x, int y) const {
     return values.data() +
@@ -42,6 +45,8 @@ struct FeatureImage {
     return texel(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
   }
 };
+
+constexpr int sensitivity_unit = 32;
 
 /// At most this many channels are kept, in the order of the maps; further ones are not looked at.
 constexpr int max_feature_channels = 16;

@@ -1,5 +1,7 @@
 #include "tilepack/exemplar/structure.h"
 
+#include "tilepack/numeric/summed_areas.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -73,6 +75,42 @@ int strong_slope(const std::vector<std::uint16_t>& slope) {
   return value;
 }
 
+// Of each texel the differences from its neighbours in the east and south, summed over a square round it, and against
+// the mean of all squares.
+std::vector<std::uint8_t> sensitivities(const FeatureImage& image, double floor_share) {
+  constexpr int half = 3;
+  const int w = image.width, h = image.height;
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+  };
+  std::vector<std::int64_t> steps(index(0, h));
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x)
+      steps[index(x, y)] =
+          squared_difference(image.texel(x, y), image.clamped_texel(x + 1, y), image.channels) +
+          squared_difference(image.texel(x, y), image.clamped_texel(x, y + 1), image.channels);
+  SummedAreas<std::int64_t> sums(w, h, [&](int x, int y) { return steps[index(x, y)]; });
+  double mean = 0;
+  for (const auto s : steps) mean += static_cast<double>(s);
+  mean = std::max(1.0, mean / static_cast<double>(steps.size()));
+  std::vector<double> seen(steps.size());
+  double all = 0;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      const int x0 = std::max(0, x - half), y0 = std::max(0, y - half);
+      const Rect area{x0, y0, std::min(w, x + half + 1) - x0, std::min(h, y + half + 1) - y0};
+      const double own = static_cast<double>(sums.sum(area)) / (area.width * area.height);
+      seen[index(x, y)] = mean / (floor_share * mean + own);
+      all += seen[index(x, y)];
+    }
+  all /= static_cast<double>(steps.size());
+  std::vector<std::uint8_t> result(steps.size());
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    result[i] =
+        static_cast<std::uint8_t>(std::clamp<long>(std::lround(sensitivity_unit * seen[i] / all), 1, 255));
+  return result;
+}
+
 } // namespace
 
 std::int64_t variance_of(const FeatureImage& image) {
@@ -126,7 +164,8 @@ FeatureImage with_structure(const FeatureImage& image, const StructureOptions& o
   for (int y = h - 1; y >= 0; --y)
     for (int x = w - 1; x >= 0; --x) sweep(x, y, -1);
 
-  FeatureImage result{w, h, image.channels + 1, {}, image.guides + 1, 0};
+  FeatureImage result{w, h, image.channels + 1, {}, image.guides + 1, 0, {}};
+  result.sensitivity = sensitivities(image, options.sensitivity_floor);
   result.flat_seam = static_cast<int>(options.flat_seam_share * static_cast<double>(variance_of(image)));
   result.values.resize(slope.size() * static_cast<std::size_t>(result.channels));
   const int full = static_cast<int>(std::lround(255.0 * std::min(options.weight, 1.0)));

@@ -11,9 +11,13 @@ constexpr int structure_range = 12;
 
 struct StructureOptions {
   double weight = 1.0; ///< 0..1, of the channel beside those of color; at 0 the image is returned as it is
-  /// FeatureImage::flat_seam as a share of the variance of all channels together. Half of it keeps cuts out of
+  /// FeatureImage::flat_seam as a share of the variance of all channels together. With 0.4 cuts keep out of
   /// stones; at none, two grey stones grow together for nothing.
-  double flat_seam_share = 0.5;
+  double flat_seam_share = 0.4;
+  /// At f, differences are seen (1 + f) / f times as well where nothing else changes as where as much changes as on
+  /// average (FeatureImage::sensitivity), before the mean is made 1. The less, the more cuts shun what is flat: at
+  /// 0.3 hairlines come out in speckled mud, at 1 tan and grey stones grow together.
+  double sensitivity_floor = 0.6;
 };
 
 /// The image with one more channel, last: the distance of each texel to the nearest strong edge, 0 on it and
@@ -28,6 +32,9 @@ struct StructureOptions {
 ///
 /// FeatureImage::flat_seam is set: a cut through the middle of two things of one color is not seen as a step of
 /// color, but as a thing of no shape. Cuts that pay for it run along outlines.
+///
+/// FeatureImage::sensitivity is set: a difference that is lost among grit is seen on the face of a stone, so cuts are
+/// drawn to where much changes anyway, as by the gradients of [Kwatra03].
 FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options = {});
 
 /// The variance of all channels together, rounded.

@@ -1,6 +1,7 @@
 #include "tilepack/seam/seam_repair.h"
 
 #include "tilepack/seam/graph_cut.h"
+#include "tilepack/seam/window_lookup.h"
 
 #include <algorithm>
 
@@ -69,58 +70,8 @@ Rect around(Rect patch, int side, int width, int height) {
 // What the canvas shows in `area`, at 1 / scale of its size.
 Overlap shown_in(const FeatureImage& image, const SourceCanvas& canvas, Rect area, int scale) {
   Overlap overlap(area.width / scale, area.height / scale, image.channels);
-  std::vector<std::uint8_t> texel(static_cast<std::size_t>(image.channels));
-  for (int y = 0; y < overlap.height; ++y)
-    for (int x = 0; x < overlap.width; ++x) {
-      for (int c = 0; c < image.channels; ++c) {
-        int sum = scale * scale / 2;
-        for (int j = 0; j < scale; ++j)
-          for (int i = 0; i < scale; ++i) {
-            const SourceTexel s = canvas.at(area.x + x * scale + i, area.y + y * scale + j);
-            sum += image.texel(s.x, s.y)[c];
-          }
-        texel[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(sum / (scale * scale));
-      }
-      overlap.add(x, y, texel.data());
-    }
+  add_shown(image, canvas, {area.x, area.y}, scale, {}, overlap);
   return overlap;
-}
-
-// Rules out the positions of a map around a sample texel: what stems from there is no news.
-void rule_out(PositionMap& map, SourceTexel origin, int scale) {
-  constexpr int distance = 2;
-  const int cx = origin.x / scale;
-  const int cy = origin.y / scale;
-  for (int y = std::max(0, cy - distance); y <= std::min(map.height - 1, cy + distance); ++y)
-    for (int x = std::max(0, cx - distance); x <= std::min(map.width - 1, cx + distance); ++x)
-      map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                 static_cast<std::size_t>(x)] = ruled_out;
-}
-
-// Where the area's north-west texel would lie in the sample for each piece of material in the area.
-void rule_out_material_of(PositionMap& map, const SourceCanvas& canvas, Rect area, int scale) {
-  std::vector<SourceTexel> origins;
-  for (int y = area.y; y < area.y + area.height; y += 2)
-    for (int x = area.x; x < area.x + area.width; x += 2) {
-      const SourceTexel s = canvas.at(x, y);
-      const SourceTexel origin{s.x - (x - area.x), s.y - (y - area.y)};
-      if (std::find(origins.rbegin(), origins.rend(), origin) != origins.rend()) continue;
-      origins.push_back(origin);
-      rule_out(map, origin, scale);
-    }
-}
-
-void add_reuse_weight(PositionMap& map, const UseTable& uses, Size window, double reuse_weight) {
-  const double average = uses.mean();
-  if (average <= 0.0 || reuse_weight <= 0.0) return;
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x) {
-      std::int64_t& mismatch = map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                                          static_cast<std::size_t>(x)];
-      if (mismatch == ruled_out) continue;
-      const double often = uses.mean({x, y, window.width, window.height}) / average;
-      mismatch = static_cast<std::int64_t>(static_cast<double>(mismatch) * (1.0 + reuse_weight * often));
-    }
 }
 
 // For each place of the area's north-west texel how unlike what the area shows now the sample is there.
@@ -128,7 +79,7 @@ PositionMap mismatches_of(const SeamRepairInput& input, const SourceCanvas& canv
                           double reuse_weight) {
   PositionMap map = input.search.mismatches(shown_in(input.pyramid.front(), canvas, area, scale));
   rule_out_of_step(map, input.alignment.seen_from({area.x, area.y}), scale);
-  rule_out_material_of(map, canvas, area, scale);
+  rule_out_material_of(map, canvas, area, scale, 2, 2);
   add_reuse_weight(map, input.uses, {area.width / scale, area.height / scale}, reuse_weight);
   return map;
 }
@@ -151,7 +102,7 @@ bool replaced(const SeamRepairInput& input, const SeamRepairOptions& options, Re
     if (*least == ruled_out) break;
     const int at = static_cast<int>(least - map.values.begin());
     const SourceTexel place = best_near(image, full, {at % map.width * scale, at / map.width * scale}, scale);
-    rule_out(map, place, scale);
+    rule_out(map, place, scale, 2);
     patch.origin = {place.x - area.x, place.y - area.y};
     changed = lay_patch(image, canvas, patch) || changed;
   }

@@ -1,19 +1,42 @@
 #include "tilepack/seam/source_canvas.h"
 
+#include <algorithm>
+
 namespace tilepack {
+
+namespace {
+
+SourceTexel clamped(const FeatureImage& image, SourceTexel s) {
+  return {std::clamp(s.x, 0, image.width - 1), std::clamp(s.y, 0, image.height - 1)};
+}
+
+std::size_t index(const FeatureImage& image, SourceTexel s) {
+  return static_cast<std::size_t>(s.y) * static_cast<std::size_t>(image.width) +
+         static_cast<std::size_t>(s.x);
+}
+
+} // namespace
 
 std::int64_t seam_cost(const FeatureImage& image, SourceTexel p_source, SourceTexel q_source, int dx,
                        int dy) {
   if (q_source.x == p_source.x + dx && q_source.y == p_source.y + dy) return 0;
-  const std::uint8_t* p_shown = image.texel(p_source.x, p_source.y);
-  const std::uint8_t* q_shown = image.texel(q_source.x, q_source.y);
-  const std::uint8_t* p_other = image.clamped_texel(q_source.x - dx, q_source.y - dy);
-  const std::uint8_t* q_other = image.clamped_texel(p_source.x + dx, p_source.y + dy);
-  const std::int64_t difference = squared_difference(p_shown, p_other, image.channels) +
-                                  squared_difference(q_shown, q_other, image.channels);
+  const SourceTexel p_beyond = clamped(image, {q_source.x - dx, q_source.y - dy});
+  const SourceTexel q_beyond = clamped(image, {p_source.x + dx, p_source.y + dy});
+  const std::size_t p = index(image, p_source), q = index(image, q_source);
+  const std::size_t p_other = index(image, p_beyond), q_other = index(image, q_beyond);
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::uint8_t* values = image.values.data();
+  std::int64_t difference =
+      squared_difference(values + p * channels, values + p_other * channels, image.channels) +
+      squared_difference(values + q * channels, values + q_other * channels, image.channels);
+  if (!image.sensitivity.empty()) {
+    const auto& s = image.sensitivity;
+    difference = difference * (s[p] + s[q] + s[p_other] + s[q_other]) / (4 * sensitivity_unit);
+  }
   if (image.flat_seam == 0) return difference;
-  const int last = image.channels - 1;
-  const std::int64_t flat = p_shown[last] + q_shown[last] + p_other[last] + q_other[last];
+  const std::uint8_t* last = values + channels - 1;
+  const std::int64_t flat =
+      last[p * channels] + last[q * channels] + last[p_other * channels] + last[q_other * channels];
   return difference + image.flat_seam * flat / (4 * 255);
 }
 

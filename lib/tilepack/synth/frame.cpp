@@ -1,6 +1,5 @@
 #include "tilepack/synth/frame.h"
 
-#include "tilepack/synth/framed_set_settings.h"
 #include "tilepack/tileset/border_colors.h"
 
 #include <algorithm>
@@ -62,8 +61,10 @@ bool in_guard(const FrameShape& shape, int x, int y) {
   return distance_to_border(shape.tile, x, y) < shape.guard;
 }
 
-bool near_border(const FrameShape& shape, int x, int y) {
-  return distance_to_border(shape.tile, x, y) < shape.reach / unbiased_part;
+CutConstraint constraint_at(const FrameShape& shape, int x, int y) {
+  const int distance = distance_to_border(shape.tile, x, y);
+  if (distance < shape.guard) return CutConstraint::keep;
+  return distance < shape.reach / unbiased_part ? CutConstraint::unbiased : CutConstraint::free;
 }
 
 } // namespace tilepack

@@ -2,6 +2,7 @@
 
 #include "tilepack/exemplar/feature_image.h"
 #include "tilepack/match/period_alignment.h"
+#include "tilepack/seam/graph_cut.h"
 #include "tilepack/seam/source_canvas.h"
 #include "tilepack/synth/synth_options.h"
 
@@ -74,8 +75,12 @@ constexpr SourceTexel no_source{-1, -1};
 /// outside of the tile.
 bool in_guard(const FrameShape& shape, int x, int y);
 
-/// Whether a texel lies so near a border of its tile (a part of the reach, see unbiased_part) that cuts are not
-/// drawn towards it: a cut that hugs the border would be seen as a line.
-bool near_border(const FrameShape& shape, int x, int y);
+/// Cuts are drawn outward by InteriorOptions::bias but for the nearest part of the reach to a border, one in so
+/// many: with the bias there too, cuts hug the border as straight hairlines (seen on pebbles). (j)
+constexpr int unbiased_part = 3;
+
+/// What the cut that joins an inside may do with a texel of its tile that a strip reaches: it is drawn outward by the
+/// bias, but not within a part of the reach (unbiased_part) of a border, which it would hug as a line.
+CutConstraint constraint_at(const FrameShape& shape, int x, int y);
 
 } // namespace tilepack

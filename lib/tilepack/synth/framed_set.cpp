@@ -11,9 +11,11 @@
 #include "tilepack/synth/frame_search.h"
 #include "tilepack/synth/interiors.h"
 #include "tilepack/synth/search_space.h"
+#include "tilepack/synth/set_repair.h"
 #include "tilepack/synth/strip_axes.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace tilepack {
@@ -27,39 +29,53 @@ FeaturePyramid searched_pyramid(const FeatureImage& image, Size tile, const Fram
   return levels;
 }
 
-// A tile in the midst of `margin` texels beyond its borders: what its strips show there, which is what any
-// neighbour shows unless its own cut runs closer. Without them a seam would drift to the border, where nothing
+// A tile that may lie beside each tile, in each of eight directions: the first of the set.
+class Neighbours {
+public:
+  explicit Neighbours(const FrameShape& shape) {
+    const auto first = [&](auto&& wanted) {
+      return static_cast<std::size_t>(std::find_if(shape.tiles.begin(), shape.tiles.end(), wanted) -
+                                      shape.tiles.begin());
+    };
+    using Tile = FrameShape::Tile;
+    for (std::size_t id = 0; id < shape.tiles.size(); ++id) {
+      const Tile& t = shape.tiles[id];
+      const std::size_t north = first([&](const Tile& n) { return n.south == t.north; });
+      const std::size_t south = first([&](const Tile& n) { return n.north == t.south; });
+      const auto beside = [&](const Tile& middle) {
+        return std::pair{first([&](const Tile& n) { return n.east == middle.west; }),
+                         first([&](const Tile& n) { return n.west == middle.east; })};
+      };
+      const auto [west, east] = beside(t);
+      const auto [north_west, north_east] = beside(shape.tiles[north]);
+      const auto [south_west, south_east] = beside(shape.tiles[south]);
+      tiles.push_back({north_west, north, north_east, west, id, east, south_west, south, south_east});
+    }
+  }
+  std::size_t of(std::size_t id, int column, int row) const {
+    return tiles[id][static_cast<std::size_t>(3 * row + column)];
+  }
+
+private:
+  std::vector<std::array<std::size_t, 9>> tiles;
+};
+
+// A tile in the midst of `margin` texels beyond its borders: what neighbours show there. Without them a seam would drift to the border, where nothing
 // would tell how it looks from the other side.
-SourceCanvas with_margin(const FrameShape& shape, const FrameSources& sources, const Frame& frame, int margin,
-                         std::size_t id, const SourceCanvas& tile) {
-  const int w = shape.tile.width;
-  const int h = shape.tile.height;
-  const FrameShape::Tile& t = shape.tiles[id];
-  const auto north = static_cast<std::size_t>(t.north);
-  const auto south = static_cast<std::size_t>(t.south);
+SourceCanvas with_margin(const Neighbours& neighbours, int margin, std::size_t id,
+                         const std::vector<SourceCanvas>& tiles) {
+  const SourceCanvas& tile = tiles[id];
+  const int w = tile.width;
+  const int h = tile.height;
   SourceCanvas canvas(w + 2 * margin, h + 2 * margin);
   for (int j = 0; j < canvas.height; ++j)
     for (int i = 0; i < canvas.width; ++i) {
       const int x = i - margin;
       const int y = j - margin;
-      const bool beside = x < 0 || x >= w;
-      SourceTexel& texel = canvas.at(i, j);
-      if (beside && (y < 0 || y >= h)) {
-        const FrameShape::Strip& strip = shape.horizontal[y < 0 ? north : south];
-        const SourceTexel corner =
-            sources.corners[static_cast<std::size_t>(x < 0 ? strip.first : strip.second)];
-        texel = {corner.x + (x < 0 ? x : x - w), corner.y + (y < 0 ? y : y - h)};
-      } else if (y < 0) {
-        texel = frame.horizontal[north].at(x, shape.reach + y);
-      } else if (y >= h) {
-        texel = frame.horizontal[south].at(x, shape.reach + y - h);
-      } else if (x < 0) {
-        texel = frame.vertical[static_cast<std::size_t>(t.west)].at(shape.reach + x, y);
-      } else if (x >= w) {
-        texel = frame.vertical[static_cast<std::size_t>(t.east)].at(shape.reach + x - w, y);
-      } else {
-        texel = tile.at(x, y);
-      }
+      const int column = x < 0 ? 0 : x < w ? 1 : 2;
+      const int row = y < 0 ? 0 : y < h ? 1 : 2;
+      const std::size_t from = neighbours.of(id, column, row);
+      canvas.at(i, j) = tiles[from].at(x - (column - 1) * w, y - (row - 1) * h);
     }
   return canvas;
 }
@@ -145,22 +161,25 @@ UseTable uses_by(const SearchSpace& space, const std::vector<SourceCanvas>& tile
 }
 
 void repair_tiles(const SearchSpace& space, const MatchLevels& levels, const FrameSources& sources,
-                  const Frame& frame, const FramedSetSettings& settings, std::vector<SourceCanvas>& tiles,
+                  const FramedSetSettings& settings, std::vector<SourceCanvas>& tiles,
                   const Progress& progress) {
   report(progress, "repair", 0.0);
   const FrameShape& shape = space.shape;
+  repair_set(space, sources.alignment, uses_by(space, tiles), settings.set_repair, tiles);
+  const UseTable uses = uses_by(space, tiles);
   const int margin = std::min(settings.margin, shape.reach);
   const PeriodAlignment alignment = sources.alignment.seen_from({-margin, -margin});
   const auto fixed = fixed_texels(shape, margin);
-  const UseTable uses = uses_by(space, tiles);
+  const Neighbours neighbours(shape);
+  std::vector<SourceCanvas> wide(tiles.size());
   each_side_by_side(tiles.size(), [&](std::size_t id) {
-    tiles[id] = with_margin(shape, sources, frame, margin, id, tiles[id]);
-    replace_worst_patches({space.pyramid, space.search, uses, alignment, fixed}, settings.repair, tiles[id]);
+    wide[id] = with_margin(neighbours, margin, id, tiles);
+    replace_worst_patches({space.pyramid, space.search, uses, alignment, fixed}, settings.repair, wide[id]);
   });
   report(progress, "repair", 0.3);
   levels.match_both(fixed, {margin, margin, shape.tile.width, shape.tile.height}, settings.coarse_match,
-                    settings.fine_match, tiles);
-  for (SourceCanvas& tile : tiles) tile = without_margin(tile, margin);
+                    settings.fine_match, wide);
+  for (std::size_t id = 0; id < tiles.size(); ++id) tiles[id] = without_margin(wide[id], margin);
   report(progress, "repair", 1.0);
 }
 
@@ -189,8 +208,8 @@ SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
       [&] { repair_strips(space, levels, sources, settings, Direction::vertical, frame.vertical); });
   auto tiles = framed_tiles(shape, frame);
   const auto interiors = chosen_interiors(space, sources, tiles, settings.interiors, progress).places;
-  join_interiors(space.image(), shape, interiors, settings.interiors.bias, tiles);
-  repair_tiles(space, levels, sources, frame, settings, tiles, progress);
+  join_interiors(space, interiors, settings.interiors.bias, tiles);
+  repair_tiles(space, levels, sources, settings, tiles, progress);
   return source_map(options, std::move(tiles));
 }
 

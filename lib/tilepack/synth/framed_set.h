@@ -27,8 +27,9 @@ namespace tilepack {
 ///     at their borders by construction, whatever their insides are.
 ///   3 For each tile an own window of the sample is chosen, all tiles together: by how it fits the strips, by how
 ///     often the set shows its parts already, and by what the set shows on the whole (chosen_interiors).
-///   4 The window is joined to the strips by one closed minimum cut (join_interiors). The worst patches along the
-///     cuts are replaced (replace_worst_patches [Kwatra03]), and the surroundings of what seams are left are
+///   4 The window is joined to the strips by one closed minimum cut (join_interiors). What joins worst round lattice
+///     points and across edges is replaced in all tiles at once (repair_set), the worst patches along the cuts of
+///     each tile are replaced (replace_worst_patches [Kwatra03]), and the surroundings of what seams are left are
 ///     matched to the sample and voted on (match_and_vote [Barnes09, Wexler07, Kwatra05]). The guard, texels next
 ///     to an edge, stays the strip's throughout.
 ///

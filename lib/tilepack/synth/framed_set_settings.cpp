@@ -15,21 +15,24 @@ struct Effort {
   int tries;      // windows laid at each
   int passes;     // of PatchMatch at full size
   int sweeps;     // in each pass
+  int corners;    // windows laid round each lattice point
+  int edges;      // and on each edge
+  int rounds;     // over them
 };
 
 // By effort; 5 is the default. More time goes to places and cuts than to passes of PatchMatch, which melt what cuts
 // leave sharp (j). For where they and the marks come from see the header.
 constexpr std::array<Effort, 10> efforts{{
-    {1, 1, 6, 0, 0, 0, 0, 0},       // 0: joined by cuts alone
-    {1, 1, 8, 0, 0, 0, 1, 3},       // 1
-    {2, 1, 8, 24, 2, 1, 1, 4},      // 2
-    {4, 1, 12, 32, 4, 1, 1, 5},     // 3
-    {6, 2, 12, 48, 6, 2, 1, 6},     // 4
-    {8, 2, 12, 64, 8, 2, 1, 6},     // 5
-    {12, 3, 12, 96, 12, 2, 1, 8},   // 6
-    {16, 3, 12, 128, 16, 2, 1, 10}, // 7
-    {24, 4, 16, 192, 24, 3, 2, 10}, // 8
-    {32, 6, 16, 256, 32, 3, 2, 16}, // 9
+    {1, 1, 6, 0, 0, 0, 0, 0, 0, 0, 0},       // 0: joined by cuts alone
+    {1, 1, 8, 0, 0, 0, 1, 3, 0, 0, 0},       // 1
+    {2, 1, 8, 24, 2, 1, 1, 4, 1, 1, 1},      // 2
+    {4, 1, 12, 32, 4, 1, 1, 5, 1, 1, 1},     // 3
+    {6, 2, 12, 48, 6, 2, 1, 6, 2, 2, 1},     // 4
+    {8, 2, 12, 64, 8, 2, 1, 6, 2, 3, 1},     // 5
+    {12, 3, 12, 96, 12, 2, 1, 8, 3, 4, 1},   // 6
+    {16, 3, 12, 128, 16, 2, 1, 10, 4, 6, 1}, // 7
+    {24, 4, 16, 192, 24, 3, 2, 10, 6, 6, 2}, // 8
+    {32, 6, 16, 256, 32, 3, 2, 16, 8, 8, 2}, // 9
 }};
 
 // Orders and rounds of insides at effort 0; InteriorOptions has those of all others.
@@ -58,6 +61,9 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
     settings.interiors.rounds = least_interior_rounds;
   }
   settings.repair = {row.patches, repair_window, row.tries, repair_reuse_weight};
+  settings.set_repair.corner_tries = row.corners;
+  settings.set_repair.edge_spots = row.edges;
+  settings.set_repair.rounds = row.rounds;
   settings.coarse_match.passes = 0;
   settings.fine_match = {seed, row.passes,         row.sweeps, fine_reach, match_reuse_weight,
                          0.0,  fine_seam_threshold};
@@ -74,6 +80,8 @@ FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::i
   settings.interiors.bias = std::max<std::int64_t>(
       settings.interiors.bias,
       static_cast<std::int64_t>(settings.bias_of_variance * static_cast<double>(variance)));
+  settings.set_repair.price =
+      static_cast<std::int64_t>(settings.price_of_bias * static_cast<double>(settings.interiors.bias));
   return settings;
 }
 

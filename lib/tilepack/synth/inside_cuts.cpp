@@ -21,17 +21,30 @@ InsideCuts::InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std
       }
       const bool outermost =
           std::min({x, y, frame.width - 1 - x, frame.height - 1 - y}) < std::max(1, shape.guard / scale);
-      constraints.push_back(outermost                            ? CutConstraint::keep
-                            : near_border(shape, full_x, full_y) ? CutConstraint::unbiased
-                                                                 : CutConstraint::free);
+      constraints.push_back(outermost ? CutConstraint::keep : constraint_at(shape, full_x, full_y));
       frame.at(x, y) = {std::clamp(s.x / scale, 0, image.width - 1),
                         std::clamp(s.y / scale, 0, image.height - 1)};
     }
 }
 
-std::int64_t InsideCuts::cost(SourceTexel place) const {
+SourceCanvas InsideCuts::laid(SourceTexel place) const {
   SourceCanvas canvas = frame;
   lay_patch(image, canvas, {{0, 0, canvas.width, canvas.height}, place, constraints}, bias);
+  return canvas;
+}
+
+std::vector<std::uint8_t> InsideCuts::taken(SourceTexel place) const {
+  const SourceCanvas canvas = laid(place);
+  std::vector<std::uint8_t> result;
+  result.reserve(canvas.texels.size());
+  for (int y = 0; y < canvas.height; ++y)
+    for (int x = 0; x < canvas.width; ++x)
+      result.push_back(canvas.at(x, y) == SourceTexel{place.x + x, place.y + y});
+  return result;
+}
+
+std::int64_t InsideCuts::cost(SourceTexel place) const {
+  const SourceCanvas canvas = laid(place);
   std::int64_t kept = 0;
   for (int y = 0; y < canvas.height; ++y)
     for (int x = 0; x < canvas.width; ++x) kept += canvas.at(x, y) != SourceTexel{place.x + x, place.y + y};

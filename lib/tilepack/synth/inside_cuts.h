@@ -22,7 +22,14 @@ public:
   /// the tile's north-west texel, at the scale of the search).
   std::int64_t cost(SourceTexel place) const;
 
+  /// Which texels that cut takes, 1 each, row by row, at the scale of the search.
+  std::vector<std::uint8_t> taken(SourceTexel place) const;
+
+  Size size() const { return {frame.width, frame.height}; }
+
 private:
+  SourceCanvas laid(SourceTexel place) const;
+
   const FeatureImage& image;
   SourceCanvas frame;
   std::vector<CutConstraint> constraints;

@@ -237,6 +237,35 @@ void refine(const SearchSpace& space, const PeriodAlignment& alignment, const st
   });
 }
 
+// What a cut at the scale of the search settles for the cut at full size: all but a band round its line.
+std::vector<CutConstraint> settled_by_search(const SearchSpace& space, const SourceCanvas& framed,
+                                             SourceTexel place, std::int64_t bias) {
+  std::vector<CutConstraint> settled(framed.texels.size(), CutConstraint::free);
+  const int scale = space.scale();
+  if (scale == 1) return settled;
+  const InsideCuts cuts(space, framed, bias);
+  const auto [w, h] = cuts.size();
+  const FeatureImage& small = space.small_image();
+  const std::vector<std::uint8_t> taken =
+      cuts.taken({std::clamp((place.x + scale / 2) / scale, 0, small.width - w),
+                  std::clamp((place.y + scale / 2) / scale, 0, small.height - h)});
+  const auto takes = [&](int x, int y) {
+    return taken[static_cast<std::size_t>(std::clamp(y, 0, h - 1)) * static_cast<std::size_t>(w) +
+                 static_cast<std::size_t>(std::clamp(x, 0, w - 1))] != 0;
+  };
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      int neighbours = 0;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) neighbours += takes(x + dx, y + dy);
+      if (neighbours > 0 && neighbours < 9) continue;
+      for (int j = 0; j < scale; ++j)
+        std::fill_n(settled.begin() + static_cast<std::ptrdiff_t>(framed.index(x * scale, y * scale + j)),
+                    scale, neighbours > 0 ? CutConstraint::take : CutConstraint::keep);
+    }
+  return settled;
+}
+
 } // namespace
 
 std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& frame) {
@@ -282,20 +311,23 @@ InteriorChoice chosen_interiors(const SearchSpace& space, const FrameSources& so
   return best;
 }
 
-void join_interiors(const FeatureImage& image, const FrameShape& shape,
-                    const std::vector<SourceTexel>& interiors, std::int64_t bias,
+void join_interiors(const SearchSpace& space, const std::vector<SourceTexel>& interiors, std::int64_t bias,
                     std::vector<SourceCanvas>& tiles) {
+  const FrameShape& shape = space.shape;
   each_side_by_side(tiles.size(), [&](std::size_t id) {
     SourceCanvas& canvas = tiles[id];
+    const std::vector<CutConstraint> settled = settled_by_search(space, canvas, interiors[id], bias);
     LaidPatch patch{{0, 0, canvas.width, canvas.height}, interiors[id], {}};
     patch.constraints.reserve(canvas.texels.size());
     for (int y = 0; y < canvas.height; ++y)
-      for (int x = 0; x < canvas.width; ++x)
+      for (int x = 0; x < canvas.width; ++x) {
+        const CutConstraint own = settled[canvas.index(x, y)];
         patch.constraints.push_back(canvas.at(x, y) == no_source ? CutConstraint::take
                                     : in_guard(shape, x, y)      ? CutConstraint::keep
-                                    : near_border(shape, x, y)   ? CutConstraint::unbiased
-                                                                 : CutConstraint::free);
-    lay_patch(image, canvas, patch, bias);
+                                    : own != CutConstraint::free ? own
+                                                                 : constraint_at(shape, x, y));
+      }
+    lay_patch(space.image(), canvas, patch, bias);
   });
 }
 

@@ -28,9 +28,9 @@ InteriorChoice chosen_interiors(const SearchSpace& space, const FrameSources& so
                                 const std::vector<SourceCanvas>& framed, const InteriorOptions& options,
                                 const Progress& progress = {});
 
-/// Joins each tile's window to its strips by one closed cut; `bias`: see lay_patch.
-void join_interiors(const FeatureImage& image, const FrameShape& shape,
-                    const std::vector<SourceTexel>& interiors, std::int64_t bias,
+/// Joins each tile's window to its strips by one closed cut; `bias`: see lay_patch. The cut is found at the scale of the
+/// search, and at full size within a band round it.
+void join_interiors(const SearchSpace& space, const std::vector<SourceTexel>& interiors, std::int64_t bias,
                     std::vector<SourceCanvas>& tiles);
 
 } // namespace tilepack

@@ -1,0 +1,78 @@
+#include "tilepack/seam/window_lookup.h"
+
+#include <algorithm>
+
+namespace tilepack {
+namespace {
+
+std::int64_t& value_at(PositionMap& map, int x, int y) {
+  return map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                    static_cast<std::size_t>(x)];
+}
+
+} // namespace
+
+void add_shown(const FeatureImage& image, const SourceCanvas& canvas, SourceTexel at, int scale, Rect hole,
+               Overlap& overlap) {
+  std::vector<std::uint8_t> texel(static_cast<std::size_t>(image.channels));
+  for (int y = 0; y < overlap.height; ++y)
+    for (int x = 0; x < overlap.width; ++x) {
+      if (x * scale >= hole.x && x * scale < hole.x + hole.width && y * scale >= hole.y &&
+          y * scale < hole.y + hole.height)
+        continue;
+      for (int c = 0; c < image.channels; ++c) {
+        int sum = scale * scale / 2;
+        for (int j = 0; j < scale; ++j)
+          for (int i = 0; i < scale; ++i) {
+            const SourceTexel s = canvas.at(at.x + x * scale + i, at.y + y * scale + j);
+            sum += image.texel(s.x, s.y)[c];
+          }
+        texel[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(sum / (scale * scale));
+      }
+      overlap.add(x, y, texel.data());
+    }
+}
+
+void rule_out(PositionMap& map, SourceTexel origin, int scale, int distance) {
+  const int cx = origin.x / scale;
+  const int cy = origin.y / scale;
+  for (int y = std::max(0, cy - distance); y <= std::min(map.height - 1, cy + distance); ++y)
+    for (int x = std::max(0, cx - distance); x <= std::min(map.width - 1, cx + distance); ++x)
+      value_at(map, x, y) = ruled_out;
+}
+
+void rule_out_material_of(PositionMap& map, const SourceCanvas& canvas, Rect area, int scale, int step,
+                          int distance) {
+  std::vector<SourceTexel> origins;
+  for (int y = area.y; y < area.y + area.height; y += step)
+    for (int x = area.x; x < area.x + area.width; x += step) {
+      const SourceTexel s = canvas.at(x, y);
+      const SourceTexel origin{s.x - (x - area.x), s.y - (y - area.y)};
+      if (std::find(origins.rbegin(), origins.rend(), origin) != origins.rend()) continue;
+      origins.push_back(origin);
+      rule_out(map, origin, scale, distance);
+    }
+}
+
+void add_reuse_weight(PositionMap& map, const UseTable& uses, Size window, double reuse_weight) {
+  const double average = uses.mean();
+  if (average <= 0.0 || reuse_weight <= 0.0) return;
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      std::int64_t& mismatch = value_at(map, x, y);
+      if (mismatch == ruled_out) continue;
+      const double often = uses.mean({x, y, window.width, window.height}) / average;
+      mismatch = static_cast<std::int64_t>(static_cast<double>(mismatch) * (1.0 + reuse_weight * often));
+    }
+}
+
+bool take_best(PositionMap& map, int apart, SourceTexel& place) {
+  const auto least = std::min_element(map.values.begin(), map.values.end());
+  if (least == map.values.end() || *least == ruled_out) return false;
+  const int at = static_cast<int>(least - map.values.begin());
+  place = {at % map.width, at / map.width};
+  rule_out(map, place, 1, apart);
+  return true;
+}
+
+} // namespace tilepack
