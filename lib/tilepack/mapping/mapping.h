@@ -36,10 +36,10 @@ struct VirtualSize {
 struct Mapping {
   MappingKind kind = MappingKind::permutation;
   VirtualSize size;
-  std::vector<int> table;    ///< permutation: a permutation of 0..n-1; even: the pattern, 64 * 64 colors
-  std::uint64_t seed = 0;    ///< mix, even
-  std::vector<int> ids;      ///< index: size.width * size.height tile ids, row by row
-  std::vector<int> variants; ///< even with variants: 64 * 64 of them; else empty
+  std::vector<int> table;         ///< permutation: a permutation of 0..n-1; even: the pattern, 64 * 64 colors
+  std::uint64_t seed = 0;         ///< mix, even
+  std::vector<int> ids;           ///< index: size.width * size.height tile ids, row by row
+  std::vector<int> variants = {}; ///< even with variants: 64 * 64 of them; else empty
 };
 
 /// 0..length-1 in an order shuffled by `seed`; length >= 1.
