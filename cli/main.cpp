@@ -132,7 +132,9 @@ std::string refusal_in(const std::exception& error) {
   if (what.find("pthread_create") == what.npos && dynamic_cast<const std::system_error*>(&error) == nullptr)
     return "";
   return fmt::format(
-      "the system refuses what is needed ({}); raise its limits (ulimit -u, -v), or try --jobs 1", what);
+      "out of memory, or of the processes that are allowed ({}); raise the limits (ulimit -v, -u), or try "
+      "--jobs 1",
+      what);
 }
 
 // Of paths that can't be worked with; the current folder is the one that nobody names.
@@ -166,7 +168,9 @@ int guarded_run(const std::vector<std::string>& arguments) {
   } catch (const std::bad_alloc&) {
     return fails(ErrorKind::internal, no_memory);
   } catch (const std::filesystem::filesystem_error& error) {
-    return fails(ErrorKind::cannot_write, path_fault(error));
+    std::error_code gone; // where outputs would go
+    static_cast<void>(std::filesystem::current_path(gone));
+    return fails(gone ? ErrorKind::cannot_write : ErrorKind::cannot_read, path_fault(error));
   } catch (const std::exception& error) {
     const std::string refusal = refusal_in(error);
     return fails(ErrorKind::internal,

@@ -307,7 +307,10 @@ Action declare_bake(Options& options) {
                "go on, and bake again whenever what the pack is made from is saved");
   add_jobs_option(options, arguments->jobs);
   options.section("Presets", preset_lines());
-  options.section("Roles of maps, and the endings of names that files of them are known by", kind_lines());
+  options.section(
+      "Roles of maps, and the endings of names that files of them are known by",
+      kind_lines() +
+          "  data, or NAME:ROLE=FILE for a map with a name of its own: --map dirt:mask=dirt.png\n");
   options.explain_extra([arguments](const std::string& extra) { return explained_extra(*arguments, extra); });
   return [arguments](Console& console) { return run_bake(*arguments, console); };
 }

@@ -108,7 +108,7 @@ class Writers(BatchCase):
                 _, errors = process.communicate()
                 took = time.monotonic() - began
                 self.assertEqual(process.returncode, -number, errors)
-                self.assertIn("interrupted; what was finished is kept", errors)
+                self.assertIn("interrupted; ", errors)
                 self.assertLess(took, 1 if os.environ.get("TILEPACK_SANITIZED") != "1" else 10)
                 after = {name: data for name, data in self.contents().items() if name not in ("packs", ".m.json.index")}
                 self.assertEqual(after, before)

@@ -70,7 +70,7 @@ class BenchSpans(unittest.TestCase):
     def test_errors(self):
         done = self.run_bench("--format", "xml")
         self.assertEqual((done.returncode, "text or json" in done.stderr), (1, True), done.stderr)
-        done = self.run_bench("--report", os.path.join(self.folder, "none", "x.html"))
+        done = self.run_bench("--report", "/proc/none/x.html")
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertEqual(os.listdir(self.folder), [])
         done = self.run_bench(os.path.join(self.folder, "nothing"))

@@ -34,7 +34,7 @@ class FirstHour(CommandCase):
         for arguments, saying in cases:
             with self.subTest(arguments=arguments):
                 self.refused(*arguments, code=1, saying=saying)
-        for guess in ("--bad", "--xyz", "--wat"):
+        for guess in ("--bad", "--xyz", "--quux"):
             with self.subTest(guess=guess):
                 self.assertNotIn("did you mean", self.refused("bake", g, "-o", "a", guess, code=1))
         self.assertNotIn("report-format", self.refused("bake", g, "-o", "a", "--report-formt", "json", code=1).replace("report-formt", ""))

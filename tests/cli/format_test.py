@@ -158,7 +158,7 @@ class Format(CommandCase):
         # An ellipsis stands for entries left out.
         corner, edge = (json.loads(re.sub(r",\s*…", "", text)) for text in re.findall(r"```json\n(.*?)```", page, re.DOTALL))
         sample = self.noise_png("sample.png", 128, 128)
-        for example, options in ((corner, ()), (edge, ("--coloring", "edge"))):
+        for example, options in ((corner, ("--tile-size", 128)), (edge, ("--coloring", "edge", "--tile-size", 128))):
             self.run_tilepack("bake", sample, "-o", "out", "--effort", 0, *options)
             written = self.read_json("out/pack.json")
             if example is corner:

@@ -76,7 +76,7 @@ class Arguments(CommandCase):
             with self.subTest(option):
                 self.refused("bake", sample, "-o", "out", "--map", option, code=USAGE, saying="--map")
         self.refused("bake", sample, "-o", "out", "--map", "norml=a.png", code=USAGE, saying="did you mean 'normal'?")
-        self.refused("bake", sample, "-o", "out", "--map", "ao=a.png", code=USAGE, saying="ao:data=FILE")
+        self.refused("bake", sample, "-o", "out", "--map", "dirt=a.png", code=USAGE, saying="dirt:data=FILE")
         self.refused("bake", sample, "-o", "out", "--map", "color=sample.png", code=USAGE, saying=("two maps", "NAME:ROLE=FILE"))
         self.refused("bake", sample, "-o", "out", "--map", "../x:data=sample.png", code=USAGE)
         self.noise_png("small.png", 32, 64)

@@ -46,7 +46,7 @@ class Outputs(CommandCase):
 
     def test_a_depfile_that_cannot_be_written(self):
         sample = self.noise_png("sample.png")
-        self.refused("bake", sample, "-o", "out", *SMALL, "--depfile", "nowhere/out.d", code=CANNOT_WRITE,
+        self.refused("bake", sample, "-o", "out", *SMALL, "--depfile", "/proc/nowhere/out.d", code=CANNOT_WRITE,
                      saying="nowhere/out.d")
         self.refused("bake", "missing.png", "-o", "out", *SMALL, "--depfile", "out.d", code=2)
 

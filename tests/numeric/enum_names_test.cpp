@@ -61,7 +61,7 @@ TEST_CASE("every table of names is complete and says each name once") {
   check_table(Matching::not_found);
   check_table(MipMode::least_squares);
   check_table(ResampleFilter::lanczos);
-  check_table(Role::data);
+  check_table(Role::opacity);
   check_table(Severity::note);
   check_table(Side::west);
   check_table(SpanMethod::estimate);

@@ -83,7 +83,7 @@ TEST_CASE("who reads a pack while it is replaced 100 times gets one of them, who
     read_beside_a_writer(folder);
   }
   SECTION("with too few open files allowed to hold all") {
-    const OpenFileLimit limit(24);
+    const OpenFileLimit limit(32);
     read_beside_a_writer(folder);
   }
 }

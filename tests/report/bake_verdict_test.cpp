@@ -51,7 +51,8 @@ BakedPack small_bake(const std::vector<SampleMap>& samples, const std::string& c
                                           {"flatten", flatten, "test", ErrorKind::usage},
                                           {"tile-size", "16", "test", ErrorKind::usage},
                                           {"effort", "0", "test", ErrorKind::usage},
-                                          {"virtual-size", "8", "test", ErrorKind::usage}};
+                                          {"virtual-size", "8", "test", ErrorKind::usage},
+                                          {"wraps", "no", "test", ErrorKind::usage}}; // noise goes on anywhere
   return baked(samples, bake_options(settings));
 }
 

@@ -185,8 +185,12 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
                     : SampleWrap{options.wraps == WrapChoice::yes, options.wraps == WrapChoice::yes};
   const int side =
       options.fit_tile_size ? tile_side_for(size, object_scale(features), tile_count(wanted)) : 0;
-  // A sample that wraps or repeats texel by texel is even as it is.
-  if (options.straighten && result.wrap == SampleWrap{} && !periods->x.exact && !periods->y.exact) {
+  // A sample whose courses wrap or repeat texel by texel is even as it is.
+  const bool is_even = options.wraps == WrapChoice::yes ||
+                       (result.wrap.x && periods && periods->x.length > 0) ||
+                       (result.wrap.y && periods && periods->y.length > 0) ||
+                       (periods && (periods->x.exact || periods->y.exact));
+  if (options.straighten && !is_even) {
     const Size asked = synth.tile_size;
     Straightened straight =
         straightened(samples, *periods, side > 0 ? tile_sides(side, size) : TileSides{asked, asked, asked});
@@ -195,6 +199,7 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
       result.straightened = straight.moved;
       samples = result.prepared;
       periods = straight.periods;
+      result.wrap = {};               // its borders moved
       size = samples[0].image.size(); // a few texels less
     }
   }

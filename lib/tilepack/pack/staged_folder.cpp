@@ -138,8 +138,13 @@ void StagedFolder::choose_container() {
   };
   std::error_code fault;
   if (fault_of_place(folder).empty()) {
-    fs::create_directory(container_beside(folder), fault);
-    if (!fault) return take(container_beside(folder));
+    const bool made = fs::create_directory(container_beside(folder), fault);
+    try {
+      if (!fault) return take(container_beside(folder));
+    } catch (...) { // no file descriptor left, say
+      if (made) fs::remove(container_beside(folder), fault);
+      throw;
+    }
   }
   if (!exists) make_folder(folder);
   take(container_within(folder));

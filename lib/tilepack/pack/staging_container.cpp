@@ -49,8 +49,15 @@ fs::path container_within(const fs::path& folder) {
 FileDescriptor locked_container(const fs::path& container) {
   FileDescriptor lock;
   for (int attempt = 0; attempt < 100; ++attempt) {
-    fs::create_directory(container);
-    const Lock state = try_lock(container, lock);
+    const bool made = fs::create_directory(container);
+    Lock state = Lock::gone;
+    try {
+      state = try_lock(container, lock);
+    } catch (...) { // no file descriptor left, say
+      std::error_code ignored;
+      if (made) fs::remove(container, ignored);
+      throw;
+    }
     if (state == Lock::held) return lock;
     if (state == Lock::busy)
       throw Error(ErrorKind::cannot_write, "", "another process is writing a pack here; wait for it");

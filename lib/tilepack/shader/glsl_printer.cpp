@@ -67,7 +67,7 @@ protected:
     const LookupFunction* grad = program.function("grad");
     if (grad == nullptr) return {};
     // What a fragment program calls.
-    return comment(
+    return two_comments(
                "At `place`, in tiles, anywhere; for the fragment stage, and within some 10^5 tiles of the "
                "origin: farther",
                "out hand the tile and the fraction to the functions above, and derivatives of your own.") +
@@ -81,7 +81,7 @@ protected:
   }
 
 private:
-  std::string comment(const std::string& first, const std::string& second) const {
+  std::string two_comments(const std::string& first, const std::string& second) const {
     return ProgramPrinter::comment(first) + ProgramPrinter::comment(second);
   }
 

@@ -244,7 +244,8 @@ std::vector<CutConstraint> settled_by_search(const SearchSpace& space, const Sou
   const int scale = space.scale();
   if (scale == 1) return settled;
   const InsideCuts cuts(space, framed, bias);
-  const auto [w, h] = cuts.size();
+  const Size cut = cuts.size();
+  const int w = cut.width, h = cut.height; // clang 14 captures no structured bindings
   const FeatureImage& small = space.small_image();
   const std::vector<std::uint8_t> taken =
       cuts.taken({std::clamp((place.x + scale / 2) / scale, 0, small.width - w),
