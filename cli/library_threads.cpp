@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#ifndef TILEPACK_SANITIZED // sanitizers are not set up so early, and ask for more than any limit
+
 namespace tilepack::cli {
 namespace {
 
@@ -39,3 +41,5 @@ void start_without_library_threads(int, char** arguments, char** environment) {
 
 } // namespace
 } // namespace tilepack::cli
+
+#endif

@@ -20,7 +20,7 @@ std::vector<MapShape> rgb(int side) {
 
 } // namespace
 
-// Peaks of resident memory of `tilepack bake`, by GNU time: the table of README.md on 4 threads (MB of 10^6), and
+// Peaks of resident memory of `tilepack bake`, by GNU time: the table of lib/tilepack/bake/COSTS.md on 4 threads (MB of 10^6), and
 // bakes on 2 threads at effort 0.
 TEST_CASE("the estimate of memory meets what bakes took") {
   const std::vector<MapShape> rock{{{512, 512}, 3}, {{512, 512}, 3}, {{512, 512}, 1}, {{512, 512}, 1}};
