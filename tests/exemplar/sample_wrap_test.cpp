@@ -16,7 +16,7 @@ SampleMap bumps(int width, int height, bool wraps_x, bool wraps_y) {
   map.image = Image(width, height, 1);
   const auto random = [](int i, const char* what, int most) {
     return static_cast<int>(
-        random_below(3, what, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(most)));
+        random_below(3, what, static_cast<std::uint64_t>(i), static_cast<std::uint32_t>(most)));
   };
   for (int i = 0; i < width * height / 20; ++i) {
     const int cx = random(i, "x", width), cy = random(i, "y", height);

@@ -82,10 +82,12 @@ TEST_CASE("who reads a pack while it is replaced 100 times gets one of them, who
     fs::create_directory(folder / "drafts");
     read_beside_a_writer(folder);
   }
+#ifndef TILEPACK_SANITIZED // the sanitizer needs file descriptors of its own to look at types
   SECTION("with too few open files allowed to hold all") {
     const OpenFileLimit limit(32);
     read_beside_a_writer(folder);
   }
+#endif
 }
 
 TEST_CASE("a pack that is held open stays what it was", "[pack]") {

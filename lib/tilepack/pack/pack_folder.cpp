@@ -114,7 +114,11 @@ bool PackFolder::open() {
         FileDescriptor(::openat(opened.get(), json.filename().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   const int no_json = errno;
   if (!opened || !opened_json) {
-    if (opened && (leads_elsewhere() || (!unknown && settle(whole) == FolderState::in_between))) return false;
+    const auto is_moving = [&] { return !unknown && settle(whole) == FolderState::in_between; };
+    // A writer that moved pack.json away may have ended since, and another begun.
+    const auto is_there = [&] { return ::faccessat(opened.get(), json.filename().c_str(), F_OK, 0) == 0; };
+    if (opened && (leads_elsewhere() || is_moving() || (no_json == ENOENT && (is_there() || is_moving()))))
+      return false;
     const bool missing = !opened || no_json == ENOENT || no_json == ENOTDIR;
     throw Error(ErrorKind::cannot_read, json.string(),
                 missing ? "there is no such file; a pack is a folder with a pack.json"
