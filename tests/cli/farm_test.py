@@ -69,7 +69,7 @@ class Farm(BatchCase):
         submit = subprocess.Popen(["sh", os.path.join(FARM, "slurm_submit.sh"), "m.json", "8"], cwd=self.folder, env=self.environment,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(submit.kill)
-        end = time.monotonic() + 60
+        end = time.monotonic() + 150
         while not os.listdir(self.path("packs")) if os.path.isdir(self.path("packs")) else True:
             self.assertLess(time.monotonic(), end)
             time.sleep(0.05)
