@@ -137,12 +137,14 @@ std::string refusal_in(const std::exception& error) {
       what);
 }
 
-// Of paths that can't be worked with; the current folder is the one that nobody names.
-std::string path_fault(const std::filesystem::filesystem_error& error) {
+// Of paths that can't be worked with; the current folder, where outputs would go, is the one that nobody names.
+Error path_fault(const std::filesystem::filesystem_error& error) {
   std::error_code gone;
   static_cast<void>(std::filesystem::current_path(gone));
-  return gone ? "the current folder was removed; change to one that is there"
-              : fmt::format("{}: {}", error.path1().string(), error.code().message());
+  if (gone)
+    return Error(ErrorKind::cannot_write, "", "the current folder was removed; change to one that is there");
+  return Error(ErrorKind::cannot_read, error.path1().string(),
+               error.code().message() + "; check the path and its permissions");
 }
 
 // The one place where an exception becomes a message and an exit code.
@@ -168,9 +170,8 @@ int guarded_run(const std::vector<std::string>& arguments) {
   } catch (const std::bad_alloc&) {
     return fails(ErrorKind::internal, no_memory);
   } catch (const std::filesystem::filesystem_error& error) {
-    std::error_code gone; // where outputs would go
-    static_cast<void>(std::filesystem::current_path(gone));
-    return fails(gone ? ErrorKind::cannot_write : ErrorKind::cannot_read, path_fault(error));
+    const Error fault = path_fault(error);
+    return fails(fault.kind(), fault.message(FieldSpelling::option));
   } catch (const std::exception& error) {
     const std::string refusal = refusal_in(error);
     return fails(ErrorKind::internal,

@@ -9,8 +9,8 @@
 #include "tilepack/bake/map_kinds.h"
 #include "tilepack/bake/material_read.h"
 #include "tilepack/bake/preset.h"
-#include "tilepack/batch/content_hash.h"
 #include "tilepack/batch/file_watch.h"
+#include "tilepack/batch/job_content.h"
 #include "tilepack/batch/output_lock.h"
 #include "tilepack/report/advised_bake.h"
 #include "tilepack/report/bake_page.h"
@@ -165,20 +165,6 @@ void bake_once(const BakeArguments& arguments, const BakeJob& job, Console& cons
                            baked.bake_seconds, baked.write_seconds));
 }
 
-// What the pack is made from, by content; another value for what can't be read.
-ContentHash content_read(const BakeJob& job) {
-  ContentHasher hasher;
-  try {
-    for (const std::string& file : files_read(job)) {
-      hasher.add_field(file);
-      hasher.add_field(hex(hash_if_there(file).value_or(ContentHash{})));
-    }
-  } catch (const Error& error) {
-    hasher.add_field(error.what());
-  }
-  return hasher.value();
-}
-
 int bake_watching(const BakeArguments& arguments, const BakeJob& job, Console& console) {
   if (arguments.printed.json())
     throw Error(ErrorKind::usage, "--format", "json is for one bake; it does not go with --watch");
@@ -192,7 +178,7 @@ int bake_watching(const BakeArguments& arguments, const BakeJob& job, Console& c
     } catch (const Error&) { // the bake says what is wrong
     }
     FileWatch watch(files); // before the bake, so that what is saved meanwhile counts
-    const ContentHash now = content_read(job);
+    const ContentHash now = content_of(job);
     if (made != now) {
       try {
         bake_once(arguments, job, console);

@@ -1,3 +1,4 @@
+#include "support/file_contents.h"
 #include "support/foreign_file.h"
 #include "support/images.h"
 #include "support/scratch_folder.h"
@@ -26,14 +27,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
+using test::bytes_of;
+using test::put;
 
 /// The message of the Error of this kind that `f` throws.
 std::string error_of(ErrorKind kind, const std::function<void()>& f) {

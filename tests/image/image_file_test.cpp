@@ -1,3 +1,4 @@
+#include "support/file_contents.h"
 #include "support/scratch_folder.h"
 
 #include "tilepack/error/error.h"
@@ -16,6 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using test::bytes_of;
+
 /// Values that every depth holds exactly where it can: all codes of integers, signs and extremes of floats.
 Image pattern(Size size, int channels, Depth depth) {
   Image image(size.width, size.height, channels);
@@ -28,11 +31,6 @@ Image pattern(Size size, int channels, Depth depth) {
   if (depth == Depth::f16) image.data().front() = 65504.0f;
   if (depth == Depth::f32) image.data().front() = std::numeric_limits<float>::max();
   return image;
-}
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "support/file_contents.h"
 #include "support/foreign_file.h"
 #include "support/scratch_folder.h"
 #include "support/tiny_files.h"
@@ -18,14 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void put(const fs::path& file, const std::string& bytes) {
-  std::ofstream(file, std::ios::binary) << bytes;
-}
+using test::bytes_of;
+using test::put;
 
 Image blocks(int channels) {
   Image image(64, 40, channels);

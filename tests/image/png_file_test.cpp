@@ -1,3 +1,4 @@
+#include "support/file_contents.h"
 #include "support/foreign_file.h"
 #include "support/scratch_folder.h"
 
@@ -17,6 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using test::bytes_of;
+
 struct Variety {
   int type = PNG_COLOR_TYPE_RGB;
   int bits = 8;
@@ -25,11 +28,6 @@ struct Variety {
   double gamma = 0; // none
   bool srgb = false;
 };
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::uint32_t random_bits() {
   static std::uint32_t state = 11;

@@ -200,7 +200,8 @@ TEST_CASE("what values stand for is kept, and is for maps of one role", "[pack]"
   CHECK(pack_json(again) == text);
   CHECK(meaning_text(again.pack.maps[0]) == "R ao, G roughness, B metallic");
   CHECK(meaning_text(again.pack.maps[1]) == "0 to 1 stand for -0.1 to 1234.5");
-  CHECK(meaning_text({"normal", Role::normal, Encoding::linear, Depth::u8, {}, NormalY::down}) == "green down");
+  CHECK(meaning_text({"normal", Role::normal, Encoding::linear, Depth::u8, {}, NormalY::down}) ==
+        "green down");
 
   const json good = json::parse(text);
   const auto changed = [&](const char* place, const json& value) {

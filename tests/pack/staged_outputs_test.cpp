@@ -1,3 +1,4 @@
+#include "support/file_contents.h"
 #include "support/killed_process.h"
 #include "support/noise_pack.h"
 #include "support/scratch_folder.h"
@@ -24,21 +25,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using test::contents;
+using test::put;
+
 using Contents = std::map<std::string, std::string>;
-
-Contents contents(const fs::path& folder) {
-  Contents all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    std::ifstream stream(entry.path(), std::ios::binary);
-    all[fs::relative(entry.path(), folder).string()] =
-        entry.is_regular_file() ? std::string(std::istreambuf_iterator<char>(stream), {}) : "folder";
-  }
-  return all;
-}
-
-void put(const fs::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
 
 /// One command's outputs: two files beside the folder, one in it, and the folder.
 void write_all(

@@ -1,3 +1,4 @@
+#include "support/file_contents.h"
 #include "support/noise_pack.h"
 #include "support/scratch_folder.h"
 
@@ -21,10 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+using test::bytes_of;
+using test::put;
 
 // Everything below a folder: name → bytes.
 std::map<std::string, std::string> contents(const fs::path& folder) {
@@ -32,10 +31,6 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     all[fs::relative(entry.path(), folder).string()] = entry.is_regular_file() ? bytes_of(entry.path()) : "";
   return all;
-}
-
-void put(const fs::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
 }
 
 template <typename Function>

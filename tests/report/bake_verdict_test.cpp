@@ -92,6 +92,10 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     CHECK(says(facts, Grade::poor, "--colors 2 (fewer parts"));
     facts.report.figures.cut_mean = 8;
     CHECK(says(facts, Grade::good, "cuts hide"));
+    facts.report.figures.cut_p95 = 2.6 * facts.report.figures.sample_step; // as of pebbles that stay whole
+    CHECK(says(facts, Grade::good, "cuts hide"));
+    facts.report.figures.cut_p95 = 3.0 * facts.report.figures.sample_step; // as of stones that are cut off
+    CHECK(says(facts, Grade::fair, "some can be seen"));
     facts.report.figures.cut_p95 = 60; // few texels of cut are dear
     CHECK(says(facts, Grade::fair, "some can be seen"));
     facts.report.figures.cut_length = 0;

@@ -92,21 +92,7 @@ public:
   using ProgramPrinter::ProgramPrinter;
 
 protected:
-  std::string type(ValueType type) const override {
-    switch (type) {
-    case ValueType::word:
-      return "uint32_t";
-    case ValueType::whole:
-      return "int32_t";
-    case ValueType::real:
-      return "float";
-    case ValueType::flag:
-      return "int";
-    case ValueType::texel:
-      break;
-    }
-    return name("value");
-  }
+  TypeNames types() const override { return {"uint32_t", "int32_t", "float", "int", name("value")}; }
 
   std::string prologue() const override {
     return fmt::format(texture_text, to.prefix,

@@ -13,21 +13,7 @@ public:
       : ProgramPrinter(std::move(settings)), godot(for_godot) {}
 
 protected:
-  std::string type(ValueType type) const override {
-    switch (type) {
-    case ValueType::word:
-      return "uint";
-    case ValueType::whole:
-      return "int";
-    case ValueType::real:
-      return "float";
-    case ValueType::flag:
-      return "bool";
-    case ValueType::texel:
-      break;
-    }
-    return "vec4";
-  }
+  TypeNames types() const override { return {"uint", "int", "float", "bool", "vec4"}; }
 
   std::vector<std::string> texture_parameters(const LookupFunction& function) const override {
     std::vector<std::string> texts;

@@ -10,21 +10,7 @@ public:
   using ProgramPrinter::ProgramPrinter;
 
 protected:
-  std::string type(ValueType type) const override {
-    switch (type) {
-    case ValueType::word:
-      return "uint";
-    case ValueType::whole:
-      return "int";
-    case ValueType::real:
-      return "float";
-    case ValueType::flag:
-      return "bool";
-    case ValueType::texel:
-      break;
-    }
-    return "float4";
-  }
+  TypeNames types() const override { return {"uint", "int", "float", "bool", "float4"}; }
 
   std::vector<std::string> texture_parameters(const LookupFunction& function) const override {
     std::vector<std::string> texts;

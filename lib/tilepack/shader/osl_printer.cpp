@@ -13,19 +13,7 @@ public:
   using ProgramPrinter::ProgramPrinter;
 
 protected:
-  std::string type(ValueType type) const override {
-    switch (type) {
-    case ValueType::word:
-    case ValueType::whole:
-    case ValueType::flag:
-      return "int";
-    case ValueType::real:
-      return "float";
-    case ValueType::texel:
-      break;
-    }
-    return "color";
-  }
+  TypeNames types() const override { return {"int", "int", "float", "int", "color"}; }
 
   std::vector<std::string> texture_parameters(const LookupFunction& function) const override {
     std::vector<std::string> texts;

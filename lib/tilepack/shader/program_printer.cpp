@@ -104,6 +104,23 @@ std::string table_lines(const LookupTable& table, const std::string& suffix) {
   return text + "\n";
 }
 
+std::string ProgramPrinter::type(ValueType type) const {
+  const TypeNames names = types();
+  switch (type) {
+  case ValueType::word:
+    return names.word;
+  case ValueType::whole:
+    return names.whole;
+  case ValueType::real:
+    return names.real;
+  case ValueType::flag:
+    return names.flag;
+  case ValueType::texel:
+    break;
+  }
+  return names.texel;
+}
+
 std::string ProgramPrinter::text(const LookupProgram& program) {
   of = &program;
   std::string result = prologue();

@@ -15,6 +15,11 @@ struct PrintSettings {
   bool wraps = true;   ///< textures repeat; arrays of layers do not
 };
 
+/// What a language calls the types of values.
+struct TypeNames {
+  std::string word, whole, real, flag, texel;
+};
+
 /// Writes a program in one language. The class itself writes what C, GLSL, HLSL and Godot have in common; each
 /// language overrides where it differs.
 class ProgramPrinter {
@@ -26,7 +31,8 @@ public:
   std::string text(const LookupProgram& program);
 
 protected:
-  virtual std::string type(ValueType type) const = 0;
+  virtual TypeNames types() const = 0;
+  std::string type(ValueType type) const;
   /// Parameters for the textures that `function` reads, and what stands for them in a call.
   virtual std::vector<std::string> texture_parameters(const LookupFunction& function) const = 0;
   virtual std::vector<std::string> texture_arguments(const LookupFunction& function) const;

@@ -11,21 +11,7 @@ public:
   using ProgramPrinter::ProgramPrinter;
 
 protected:
-  std::string type(ValueType type) const override {
-    switch (type) {
-    case ValueType::word:
-      return "uint";
-    case ValueType::whole:
-      return "int";
-    case ValueType::real:
-      return "float";
-    case ValueType::flag:
-      return "bool";
-    case ValueType::texel:
-      break;
-    }
-    return "vec4";
-  }
+  TypeNames types() const override { return {"uint", "int", "float", "bool", "vec4"}; }
 
   std::string prologue() const override {
     return "import { Fn, If, array, bool, dFdx, dFdy, float, floor, int, ivec2, select, texture, "

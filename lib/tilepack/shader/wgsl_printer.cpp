@@ -10,21 +10,7 @@ public:
   using ProgramPrinter::ProgramPrinter;
 
 protected:
-  std::string type(ValueType type) const override {
-    switch (type) {
-    case ValueType::word:
-      return "u32";
-    case ValueType::whole:
-      return "i32";
-    case ValueType::real:
-      return "f32";
-    case ValueType::flag:
-      return "bool";
-    case ValueType::texel:
-      break;
-    }
-    return "vec4f";
-  }
+  TypeNames types() const override { return {"u32", "i32", "f32", "bool", "vec4f"}; }
 
   std::vector<std::string> texture_parameters(const LookupFunction& function) const override {
     std::vector<std::string> texts;
