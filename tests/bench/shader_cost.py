@@ -3,7 +3,7 @@ EGL finds (LIBGL_ALWAYS_SOFTWARE=0), in turn, as ratios to plain texturing.
 
     python3 tests/bench/shader_cost.py build/release/tilepack [WIDTH HEIGHT ROUNDS]
 
-Bakes packs of samples/pebbles.png, 64 x 64 texels a tile. Peers' methods are written from their papers: hex tiling after
+Bakes packs of samples/pebbles.png, 64 x 64 texels a tile. Peers' methods are written after their authors' pages and abstracts: hex tiling after
 Mikkelsen, "Practical Real-Time Hex-Tiling" (JCGT 11(3), 2022), histogram-preserving blending after Heitz and Neyret (HPG
 2018; the inverse transform as one more fetch), and the methods that Babylon.js's page on texture repetition lists, by their counts
 of fetches: blend of two offsets by a low noise (3), offsets and mirrors of four cells blended (4), Voronoi bombing (9)."""

@@ -126,9 +126,11 @@ def main():
     gl.target(WIDTH, HEIGHT, gl_context.RGBA32F)
     with tempfile.TemporaryDirectory() as folder:
         pack = os.path.join(folder, "sample.pack")
-        subprocess.run([program, "bake", sample, "-o", pack, "--quiet"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([program, "bake", sample, "-o", pack, "--tile-size", "128", "--quiet"], check=True, stdout=subprocess.DEVNULL)
         text = subprocess.run([program, "shader", pack, "--lang", "glsl"], check=True, capture_output=True, text=True).stdout
-        tiles = b"".join(bytes(row) for row in read_png(os.path.join(pack, "color_0.png"))[0])
+        drawn = read_png(os.path.join(pack, "color_0.png"))[0]
+        assert len(drawn) == SIZE, "a pack of as many texels as the sample"
+        tiles = b"".join(bytes(row) for row in drawn)
     methods = {
         "repeat": draw(gl, PLAIN, [("t", plain, SRGB8, True)]),
         "hex": draw(gl, HEX, [("t", plain, SRGB8, True)]),
