@@ -9,6 +9,8 @@
 #include "tilepack/batch/output_lock.h"
 #include "tilepack/error/error.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -110,6 +112,14 @@ TEST_CASE("heads of the cache are read as they were written and damage is notice
   }
   CHECK_FALSE(parsed_cache_head(cache_head_text({{"../pack.json", 3, hash_of("y")}})));
   CHECK_FALSE(parsed_cache_head(cache_head_text({})));
+  // A number has one spelling: a list with its own hash, but a leading zero in what says its size or that of its file.
+  const auto head_of = [](const char* zero_of_list, const char* zero_of_file) {
+    const std::string list = fmt::format("1\npack.json\n{}3\n{}\n", zero_of_file, hex(hash_of("y")));
+    return fmt::format("tilepack-cache-1\n{}\n{}{}\n{}", hex(hash_of(list)), zero_of_list, list.size(), list);
+  };
+  CHECK(parsed_cache_head(head_of("", "")));
+  CHECK_FALSE(parsed_cache_head(head_of("0", "")));
+  CHECK_FALSE(parsed_cache_head(head_of("", "0")));
 }
 
 TEST_CASE("jobs share threads and memory, and a failure keeps only what hangs on it") {

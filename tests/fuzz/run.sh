@@ -9,12 +9,13 @@ all="pack_json manifest preset obj_mesh color_list cache_entry" # command_line i
 targets=${*:-$all}
 cmake -G Ninja -S tests/fuzz -B build/fuzz -D CMAKE_CXX_COMPILER="${CLANGXX:-clang++-14}" >/dev/null
 ninja -C build/fuzz ${FUZZ_BUILD_JOBS:+-j "$FUZZ_BUILD_JOBS"} $(printf 'fuzz_%s ' $targets) >/dev/null
-if [ -n "$minutes" ]; then seconds=$((minutes * 60)); else seconds=9; fi
+# A look in passing tries the same inputs each time; a hunt tries others.
+if [ -n "$minutes" ]; then seconds=$((minutes * 60)) seed=0; else seconds=9 seed=1; fi
 made=$PWD/build/fuzz # in full: a target may go to another folder
 for target in $targets; do
   mkdir -p "$made/corpus/$target"
   log=$made/$target.log
-  if ! "$made/fuzz_$target" -max_total_time="$seconds" ${FUZZ_RUNS:+-runs="$FUZZ_RUNS"} -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+  if ! "$made/fuzz_$target" -seed=$seed -max_total_time="$seconds" ${FUZZ_RUNS:+-runs="$FUZZ_RUNS"} -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$made/$target-" "$made/corpus/$target" "$PWD/tests/fuzz/seeds/$target" >"$log" 2>&1; then
     tail -n 40 "$log"
     echo "fuzz: $target failed; the input is build/fuzz/$target-*"

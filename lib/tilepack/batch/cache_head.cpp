@@ -21,7 +21,9 @@ bool take_line(std::string_view& text, std::string_view& line) {
   return true;
 }
 
+// As `cache_head_text` writes it and no other way: 06 is damage, not 6.
 bool parsed_number(std::string_view text, std::uint64_t& number) {
+  if (text.size() > 1 && text.front() == '0') return false;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
   return fault == std::errc() && end == text.data() + text.size() && !text.empty();
 }
