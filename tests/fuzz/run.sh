@@ -15,7 +15,7 @@ made=$PWD/build/fuzz # in full: a target may go to another folder
 for target in $targets; do
   mkdir -p "$made/corpus/$target"
   log=$made/$target.log
-  if ! "$made/fuzz_$target" -seed=$seed -max_total_time="$seconds" ${FUZZ_RUNS:+-runs="$FUZZ_RUNS"} -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+  if ! "$made/fuzz_$target" -seed=$seed -max_total_time="$seconds" ${FUZZ_RUNS:+-runs="$FUZZ_RUNS"} -timeout=60 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$made/$target-" "$made/corpus/$target" "$PWD/tests/fuzz/seeds/$target" >"$log" 2>&1; then
     tail -n 40 "$log"
     echo "fuzz: $target failed; the input is build/fuzz/$target-*"
