@@ -26,14 +26,17 @@ Console::~Console() {
   erase_progress();
 }
 
-void Console::print(std::string_view data) {
+void Console::print(std::string_view data, std::string_view in_place) {
   if (kept) {
     *kept += data;
     return;
   }
   erase_progress();
   if (std::fwrite(data.data(), 1, data.size(), stdout) != data.size() || std::fflush(stdout) != 0)
-    throw Error(ErrorKind::cannot_write, "stdout", "the output could not be written; is the disk full?");
+    throw Error(ErrorKind::cannot_write, "stdout",
+                fmt::format("the output could not be written; is the disk full?{}{}{}",
+                            in_place.empty() ? "" : " ", in_place,
+                            in_place.empty() ? "" : " is whole and in place"));
 }
 
 void Console::note(std::string_view message) {

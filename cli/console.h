@@ -26,8 +26,9 @@ public:
 
   bool quiet = false; ///< no progress, notes and warnings; errors are always printed
 
-  /// Data for stdout, as it is. Throws Error (cannot_write) when stdout can't take it.
-  void print(std::string_view data);
+  /// Data for stdout, as it is. Throws Error (cannot_write) when stdout can't take it; the message names
+  /// `in_place`, what was made and stays all the same.
+  void print(std::string_view data, std::string_view in_place = {});
 
   /// A line for stderr, a newline added.
   void note(std::string_view message);

@@ -158,9 +158,9 @@ void bake_once(const BakeArguments& arguments, const BakeJob& job, Console& cons
     return;
   }
   if (arguments.printed.json())
-    console.print(made_json(baked.description, job.folder, &story.facts));
+    console.print(made_json(baked.description, job.folder, &story.facts), job.folder);
   else if (!console.quiet || arguments.printed.asked_for())
-    console.print(bake_report_text(baked.description, job.folder, &story.facts));
+    console.print(bake_report_text(baked.description, job.folder, &story.facts), job.folder);
   console.note(fmt::format("read {:.2f} s, baked {:.2f} s, written {:.2f} s", baked.read_seconds,
                            baked.bake_seconds, baked.write_seconds));
 }

@@ -99,9 +99,9 @@ int run_pack(PackArguments& arguments, Console& console) {
     write_text_file(arguments.depfile, depfile_text(arguments.folder + "/pack.json", inputs));
   const PackDescription made = described(pack);
   if (arguments.printed.json())
-    console.print(made_json(made, arguments.folder));
+    console.print(made_json(made, arguments.folder), arguments.folder);
   else if (!console.quiet || arguments.printed.asked_for())
-    console.print(bake_report_text(made, arguments.folder));
+    console.print(bake_report_text(made, arguments.folder), arguments.folder);
   if (!now.empty()) console.note(now);
   return 0;
 }

@@ -144,6 +144,15 @@ class Outputs(CommandCase):
         self.refused("bake", "sample.png", "-o", "out", *SMALL, *maps, "--depfile", "out.d", code=CANNOT_WRITE,
                      saying="out.d: writing failed", preexec_fn=almost_full)
 
+    def test_a_pack_is_whole_where_its_report_cannot_be_printed(self):
+        self.noise_png("good.png", 48, 48)
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([TILEPACK, "bake", "good.png", "-o", "p", "--tile-size", "16", "--effort", "0"], cwd=self.folder, stdout=full,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertIn("p is whole and in place", done.stderr)
+        self.run_tilepack("validate", "p")
+
     def test_a_full_disk_for_pictures(self):
         self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", "--effort", 0, "--tile-size", 32,
                           "--virtual-size", 64, "--mapping", "index")
