@@ -131,8 +131,8 @@ void refuse_window_options(const Options& options) {
   }
 }
 
-int render_camera(const CameraArguments& arguments, const Texture& texture, bool shows_color,
-                  const RenderTarget& target, const std::string& output, Console& console) {
+Size draw_camera(const CameraArguments& arguments, const Texture& texture, bool shows_color,
+                 const RenderTarget& target, StagedFile& output, const Progress& progress) {
   if (arguments.span_error > 0 && arguments.reseed > 0) {
     throw Error(ErrorKind::usage, "--span-error", "chooses --reseed; give one of the two");
   }
@@ -146,15 +146,20 @@ int render_camera(const CameraArguments& arguments, const Texture& texture, bool
                               parsed_size(arguments.size), options, target);
 
   const Size size = renderer.size();
-  const Progress progress = console.progress();
-  StagedOutputs outputs;
-  ImageWriter writer(outputs.add_file(output), size, renderer.channels(),
-                     usual_format(target.depth, target.encoding));
+  ImageWriter writer(output, size, renderer.channels(), usual_format(target.depth, target.encoding));
   for (int row = 0; row < size.height; row += band_rows) {
     report(progress, "render", static_cast<double>(row) / size.height);
     writer.write(renderer.rows(row, std::min(band_rows, size.height - row)));
   }
   writer.finish();
+  return size;
+}
+
+int render_camera(const CameraArguments& arguments, const Texture& texture, bool shows_color,
+                  const RenderTarget& target, const std::string& output, Console& console) {
+  const Progress progress = console.progress();
+  StagedOutputs outputs;
+  draw_camera(arguments, texture, shows_color, target, outputs.add_file(output), progress);
   outputs.commit(progress);
   return 0;
 }

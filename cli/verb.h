@@ -32,6 +32,7 @@ Verb pack_verb();
 Verb inspect_verb();
 Verb validate_verb();
 Verb render_verb();
+Verb compose_verb();
 Verb compare_verb();
 Verb layouts_verb();
 Verb bench_verb();

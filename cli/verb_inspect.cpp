@@ -12,6 +12,8 @@
 #include "tilepack/report/mapping_picture.h"
 #include "tilepack/report/pack_picture.h"
 #include "tilepack/report/pack_summary.h"
+#include "tilepack/report/scene_picture.h"
+#include "tilepack/scene/scene_graph.h"
 
 #include <fmt/format.h>
 
@@ -72,6 +74,19 @@ int run_inspect_mapping(const InspectArguments& arguments, Console& console) {
   return 0;
 }
 
+int run_inspect_scene(const InspectArguments& arguments, Console& console) {
+  const SceneFile scene = read_scene(arguments.pack);
+  SceneFiles files(scene);
+  scene_graph(scene, files); // whatever is wrong is said first
+  check_outputs(std::vector<OutputFile>{{"--picture", arguments.picture}}, files.inputs());
+  StagedOutputs outputs;
+  if (!arguments.picture.empty())
+    add_drawing(outputs, {"--picture", arguments.picture}, scene_picture(scene, files));
+  outputs.commit(console.progress());
+  console.print(arguments.format == "json" ? scene_summary_json(scene) : scene_summary_text(scene));
+  return 0;
+}
+
 int run_inspect(const InspectArguments& arguments, Console& console) {
   check_outputs_of(arguments);
   auto [summary, pack] = reading_pack(arguments.pack, [&](const PackFolder& folder) {
@@ -109,10 +124,12 @@ int run_inspect(const InspectArguments& arguments, Console& console) {
 
 Action declare_inspect(Options& options) {
   auto arguments = std::make_shared<InspectArguments>();
-  options.option("PACK", arguments->pack, "folder or pack.json").required();
+  options.option("PACK", arguments->pack, "folder or pack.json of a pack, or a scene").required();
   options.option("--format", arguments->format, "of the summary on stdout (default text)")
       .one_of("text|json");
-  options.option("--picture", arguments->picture, "draw the packed texture with its colors and tile ids")
+  options
+      .option("--picture", arguments->picture,
+              "draw the packed texture with its colors and tile ids; of a scene, its graph and each map")
       .value("FILE.png|.svg");
   options.option("--index-map", arguments->index_map, "write the tile ids of an index mapping, row by row")
       .value("FILE.json");
@@ -138,7 +155,14 @@ Action declare_inspect(Options& options) {
   options.flag("--bare", arguments->bare, "draw without colors and ids");
   options.flag("--mapping", arguments->mapping,
                "statistics of the mapping instead, beside tables of 8 to 4096 entries; --picture draws them");
-  return [arguments](Console& console) {
+  return [arguments, &options](Console& console) {
+    if (is_scene_file(arguments->pack)) {
+      for (const char* name : {"--index-map", "--corner-picture", "--preview", "--tiles", "--map", "--level",
+                               "--worst", "--bare", "--mapping"})
+        if (options.given(name))
+          throw Error(ErrorKind::usage, name, "is for packs; leave it out, or name a pack");
+      return run_inspect_scene(*arguments, console);
+    }
     return arguments->mapping ? run_inspect_mapping(*arguments, console) : run_inspect(*arguments, console);
   };
 }
@@ -146,9 +170,10 @@ Action declare_inspect(Options& options) {
 } // namespace
 
 Verb inspect_verb() {
-  return {"inspect", "show what a pack holds, in text, JSON or pictures",
+  return {"inspect", "show what a pack or a scene holds, in text, JSON or pictures",
           "  tilepack inspect gravel.pack --picture pack.png --preview texture.png\n"
           "  tilepack inspect gravel.pack --format json\n"
+          "  tilepack inspect landscape.json --picture graph.png\n"
           "  tilepack inspect gravel.pack --mapping --picture mapping.png\n",
           declare_inspect};
 }

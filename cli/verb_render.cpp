@@ -1,5 +1,6 @@
 #include "jobs.h"
 #include "render_camera.h"
+#include "render_window.h"
 #include "value_check.h"
 #include "verb.h"
 
@@ -11,15 +12,12 @@
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/staged_outputs.h"
-#include "tilepack/pack/stored_format_for.h"
 #include "tilepack/sampler/pack_texture.h"
 #include "tilepack/sampler/render.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -58,52 +56,12 @@ Filter filter_of(const std::string& name) {
   refuse_name(name, "--filter", "filter", known);
 }
 
-// X,Y,W,H, whole numbers, as far as a window can reach.
-VirtualRect parsed_rect(const std::string& text) {
-  constexpr std::int64_t farthest = std::int64_t{1} << 50;
-  std::array<std::int64_t, 4> numbers{};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  bool good = true;
-  for (std::size_t i = 0; i < numbers.size() && good; ++i) {
-    const auto [after, fault] = std::from_chars(at, end, numbers[i]);
-    good = fault == std::errc() && (i == 3 ? after == end : after != end && *after == ',');
-    at = after + 1;
-  }
-  if (!good)
-    throw Error(ErrorKind::usage, "--rect",
-                fmt::format("'{}' is no window; give four whole numbers X,Y,WIDTH,HEIGHT in texels", text));
-  const auto [x, y, width, height] = numbers;
-  if (std::min(x, y) < -farthest || std::max(x, y) > farthest)
-    throw Error(ErrorKind::usage, "--rect", fmt::format("{},{}; X and Y may be -2^50..2^50", x, y));
-  if (std::min(width, height) < 1 || std::max(width, height) > std::int64_t{1} << 30)
-    throw Error(ErrorKind::usage, "--rect",
-                fmt::format("{} x {} texels; width and height may be 1..2^30", width, height));
-  return {x, y, static_cast<int>(width), static_cast<int>(height)};
-}
-
 VirtualRect default_rect(const Pack& pack, int level) {
   const Size tile = level_size(pack.tile_size, level);
   const auto side = [](std::int64_t tiles, int texels) {
     return static_cast<int>(std::min<std::int64_t>(tiles, default_tiles)) * texels;
   };
   return {0, 0, side(pack.mapping.size.width, tile.width), side(pack.mapping.size.height, tile.height)};
-}
-
-// The file format is asked for by the extension; the depth of the map is kept if the format has it.
-RenderTarget target_for(const std::string& file, const PackedMap& map, const std::string& encoding) {
-  const auto container = container_by_name(file);
-  if (!container) throw Error(ErrorKind::usage, "--output", without_ending(file, ".png or .exr"));
-  const StoredFormat format =
-      stored_format_for(map.role, map.encoding, map.depth, {container, {}}, StoredFor::picture);
-  RenderTarget target{format.encoding, format.depth};
-  if (encoding == "srgb")
-    target.encoding = Encoding::srgb;
-  else if (encoding == "linear")
-    target.encoding = Encoding::linear;
-  else if (!encoding.empty())
-    throw Error(ErrorKind::usage, "--encoding", fmt::format("'{}'; it is srgb or linear", encoding));
-  return target;
 }
 
 std::vector<std::string> files_read_by(const RenderArguments& arguments) {

@@ -3,9 +3,11 @@
 #include "verb.h"
 
 #include "tilepack/check/folder_checks.h"
+#include "tilepack/check/scene_checks.h"
 #include "tilepack/measure/against_reference.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/report/quality_note.h"
+#include "tilepack/scene/scene_file.h"
 
 #include <fmt/format.h>
 
@@ -37,12 +39,16 @@ int run_validate(const ValidateArguments& arguments, Console& console) {
     throw Error(ErrorKind::usage, "--format", "csv holds the figures of --against-reference; give both");
   const JobLimit limit(arguments.jobs);
   std::optional<Pack> pack; // the very one that was checked
-  const Report report = reading_pack(arguments.pack, [&](const PackFolder& folder) {
-    Report found = check_folder(folder, arguments.pack, console.progress());
-    if (passed(found)) note_quality(folder.description().pack, found);
-    if (arguments.against_reference && passed(found)) pack = read_pack(folder);
-    return found;
-  });
+  const bool is_scene = is_scene_file(arguments.pack);
+  if (is_scene && arguments.against_reference)
+    throw Error(ErrorKind::usage, "--against-reference", "is for packs; name the pack, or leave it out");
+  const Report report =
+      is_scene ? check_scene(arguments.pack) : reading_pack(arguments.pack, [&](const PackFolder& folder) {
+        Report found = check_folder(folder, arguments.pack, console.progress());
+        if (passed(found)) note_quality(folder.description().pack, found);
+        if (arguments.against_reference && passed(found)) pack = read_pack(folder);
+        return found;
+      });
   if (pack) {
     constexpr std::uint64_t seed = 1; // of the places looked at: the same figures every time
     const auto errors = against_reference(*pack, arguments.lookups, seed, console.progress());
@@ -65,7 +71,7 @@ int run_validate(const ValidateArguments& arguments, Console& console) {
 
 Action declare_validate(Options& options) {
   auto arguments = std::make_shared<ValidateArguments>();
-  options.option("PACK", arguments->pack, "folder or pack.json").needed();
+  options.option("PACK", arguments->pack, "folder or pack.json of a pack, or a scene").needed();
   options
       .option("--format", arguments->format,
               "of the report on stdout; csv: the figures of --against-reference (default text)")
@@ -87,9 +93,10 @@ Action declare_validate(Options& options) {
 } // namespace
 
 Verb validate_verb() {
-  return {"validate", "check that a pack is whole and keeps its promises",
+  return {"validate", "check that a pack is whole and keeps its promises, or that a scene can be drawn",
           "  tilepack validate gravel.pack\n"
           "  tilepack validate gravel.pack --format json\n"
+          "  tilepack validate landscape.json\n"
           "  tilepack validate gravel.pack --against-reference --format csv\n"
           "Exit code 0 if there is no error (warnings and notes are allowed), 5 if there is one.\n",
           declare_validate};

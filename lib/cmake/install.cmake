@@ -18,6 +18,7 @@ install(
 install(FILES ${PROJECT_SOURCE_DIR}/lib/tilepack/pack/pack.schema.json ${PROJECT_SOURCE_DIR}/lib/tilepack/check/report.schema.json
               ${PROJECT_SOURCE_DIR}/lib/tilepack/batch/manifest.schema.json
               ${PROJECT_SOURCE_DIR}/lib/tilepack/batch/batch_log.schema.json
+              ${PROJECT_SOURCE_DIR}/lib/tilepack/scene/scene.schema.json
         DESTINATION ${tilepack_share})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/presets DESTINATION ${tilepack_share})
 

@@ -51,6 +51,10 @@ TABLE = [
     (["render", "p", "-o", "v.gif"], "an ending that is none", 1), (["render", "none", "-o", "v.png"], MISSING, 2),
     (["render", "p", "-o", "v.png", "--camera", "0,2,0,0,0,-6,0,1,0,60", "--mesh", "text.txt"], FOREIGN, 3), (["render", "bad", "-o", "v.png"], BROKEN, 3),
     (["render", "cut", "-o", "v.png"], SHORT, 2), (["render", "p", "-o", "text.txt/v.png"], NO_FOLDER, 4), (["render", "p", "-o", "p/color_0.png"], OWN, 1),
+    (["compose", "--no-such"], NO_OPTION, 1), (["compose"], NOTHING, 1), (["compose", "s.json", "-o", "v.png", "--frames", "2..1"], RANGE, 1),
+    (["compose", "none.json", "-o", "v.png"], MISSING, 2), (["compose", "text.txt", "-o", "v.png"], FOREIGN, 3), (["compose", "broken.json", "-o", "v.png"], BROKEN, 3),
+    (["compose", "lost.json", "-o", "v.png"], "a picture of a node that is not there", 2), (["compose", "s.json", "-o", "text.txt/v.png"], NO_FOLDER, 4),
+    (["compose", "s.json", "-o", "tile.png"], OWN, 1), (["compose", "s.json", "-o", "v.png", ">"], FULL, 4),
     (["compare", "--no-such"], NO_OPTION, 1), (["compare", "good.png"], NOTHING, 1), (["compare", "good.png", "none.png"], MISSING, 2),
     (["compare", "good.png", "text.txt"], FOREIGN, 2), (["compare", "good.png", "short.png"], SHORT, 2),
     (["compare", "good.png", "good2.png", "--picture", "text.txt/d.png"], NO_FOLDER, 4), (["compare", "good.png", "good2.png"], CHECK, 5),
@@ -83,6 +87,9 @@ class Failures(CommandCase):
         self.write("broken.json", '{"purpose": 3}')
         self.write_json("one.json", [{"nw": 0, "ne": 0, "sw": 0, "se": 0}])
         self.write_json("two.json", [{"nw": 0, "ne": 0, "sw": 0, "se": 0}] * 2)
+        for name, picture in (("s.json", "tile.png"), ("lost.json", "none.png")):
+            self.write_json(name, {"format": "tilepack-scene", "version": 1, "size": [16, 16], "output": "look", "nodes": {
+                "cells": {"block": "tile-map", "cells": [1, 1]}, "look": {"block": "reference-texture", "patterns": [picture], "place": "cells"}}})
         os.mkdir(self.path("others"))
         self.write("others/thesis.txt", "years of work")
         for name in ("p", "cut"):

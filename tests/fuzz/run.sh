@@ -5,7 +5,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 minutes=${1:-}
 if [ $# -gt 0 ]; then shift; fi
-all="pack_json manifest preset obj_mesh color_list cache_entry" # command_line is run where it is named
+all="pack_json manifest scene preset obj_mesh color_list cache_entry" # command_line is run where it is named
 targets=${*:-$all}
 cmake -G Ninja -S tests/fuzz -B build/fuzz -D CMAKE_CXX_COMPILER="${CLANGXX:-clang++-14}" >/dev/null
 ninja -C build/fuzz ${FUZZ_BUILD_JOBS:+-j "$FUZZ_BUILD_JOBS"} $(printf 'fuzz_%s ' $targets) >/dev/null

@@ -10,7 +10,7 @@ TILEPACK = os.environ["TILEPACK"]
 
 # From low to high: a room of lib/tilepack/ includes only itself and those before it.
 ROOMS = ("error numeric json image tileset exemplar match seam synth layout mip mapping pack lookup sampler scanline pattern shader "
-         "bake batch check measure bench report").split()
+         "bake scene batch check measure bench report").split()
 CODE = (".h", ".cpp", ".cpp.in", ".py", ".sh")
 
 

@@ -85,7 +85,7 @@ TEST_CASE("words are written in letters that differ, and what has no letter is a
       if (letter != other) CHECK(written({letter}) != written({other}));
   }
   CHECK(sum_of_red(written("?")) == 2 * 5 + 2 * 5);
-  CHECK(written("?") == written("z"));
+  CHECK(written("?") == written("Z"));
   VectorDrawing drawing = blank(2, 2);
   drawing.words.push_back({{1, 1}, 7, "mix", red});
   CHECK(svg(drawing).find(">mix</text>") != std::string::npos);

@@ -11,6 +11,7 @@ std::span<const BatchVerb> batch_verbs() {
       {"bake", BatchOutput::pack, {{"sample", "samples"}}, {}, {"report"}},
       {"pack", BatchOutput::pack, {{"tiles", "", false, true}}, {"colors"}},
       {"render", BatchOutput::file, {pack}, {"mesh"}},
+      {"compose", BatchOutput::file, {{"scene", "scenes"}}, {"mesh"}},
       {"inspect", BatchOutput::printed, {pack}, {}, {"picture"}},
       {"validate", BatchOutput::printed, {pack}},
       {"compare", BatchOutput::printed, {{"a", "", true}, {"b", "", true}}},

@@ -7,6 +7,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/staged_folder.h"
+#include "tilepack/scene/scene_file_names.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,16 @@ void add_pack(std::vector<EntryInput>& inputs, std::string_view key, const std::
     inputs.push_back({fmt::format("{} {}", key, name), (fs::path(folder) / name).string()});
 }
 
+// A pack of a scene by its path, a picture by its own.
+void add_scene_files(std::vector<EntryInput>& inputs, const std::string& scene) {
+  for (const SceneFileName& name : scene_file_names(scene)) {
+    if (name.is_pack)
+      add_pack(inputs, "scene " + name.path, name.path);
+    else
+      inputs.push_back({"scene " + name.path, name.path});
+  }
+}
+
 } // namespace
 
 std::vector<EntryInput> inputs_of(const Manifest& manifest, const BatchEntry& entry) {
@@ -69,6 +80,7 @@ std::vector<EntryInput> inputs_of(const Manifest& manifest, const BatchEntry& en
       else
         inputs.push_back({std::string(source.key), entry.sources[i]});
     }
+    if (entry.verb->name == "compose") add_scene_files(inputs, entry.sources.front());
   }
   for (const std::string_view option : entry.verb->files_read)
     for (const BatchOption& given : entry.options)

@@ -7,6 +7,7 @@
 #include "tilepack/json/json_cursor.h"
 #include "tilepack/json/json_line.h"
 #include "tilepack/numeric/enum_names.h"
+#include "tilepack/scene/scene_file_names.h"
 
 #include <fmt/format.h>
 
@@ -227,6 +228,8 @@ private:
       };
       for (const std::string& source : entry.sources) reads(source);
       for (const MaterialFile& map : entry.maps) reads(map.file);
+      if (entry.verb->name == "compose")
+        for (const SceneFileName& name : scene_file_names(entry.sources.front())) reads(name.path);
       for (const BatchOption& option : entry.options)
         if (is_read_option(*entry.verb, option.name))
           for (const std::string& value : option.values) reads(value);

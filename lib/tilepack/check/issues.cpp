@@ -11,6 +11,7 @@ namespace {
 using enum Severity;
 
 constexpr const char* bake_again = "Bake the pack again.";
+constexpr const char* not_drawn = "The scene can't be drawn.";
 constexpr const char* restore = "Restore the file from the bake, or bake the pack again.";
 
 // Made when first asked for: remedies name options as marked fields.
@@ -125,9 +126,39 @@ const auto& rule_table() {
           "The texture changes as one moves away: a level was edited and the others were not built again.",
           "Build the levels again from level 0."},
 
-      RuleText{Rule::set_poor, Severity::note, "the figures of the tiles, found when they were made, are poor",
+      RuleText{Rule::set_poor, Severity::note,
+               "the figures of the tiles, found when they were made, are poor",
                "Cuts, borders or repeats of parts can be seen, though all is stored as it should be.",
                "Bake again with what the finding names, or with " + field("apply-advice") + "."},
+
+      RuleText{Rule::scene_not_json, error, "the scene is no JSON", not_drawn,
+               "Undo the last edit at the place named."},
+      RuleText{Rule::scene_field, error,
+               "a field or input is missing, unknown, of the wrong type or out of range", not_drawn,
+               "Write what the finding names; SCENES.md has a table a block."},
+      RuleText{Rule::scene_block, error, "a block is none that there is", not_drawn,
+               "Correct the name; SCENES.md lists the blocks."},
+      RuleText{Rule::scene_node, error, "a name is none that the scene has", not_drawn,
+               "Correct the name, or add what it names."},
+      RuleText{Rule::scene_kind, error, "a node gives another kind of value than the input takes", not_drawn,
+               "Name a node of the kind that the finding names."},
+      RuleText{Rule::scene_circle, error, "a node is made from itself", not_drawn,
+               "Take one of the nodes out of the circle."},
+      RuleText{Rule::scene_size, error, "sizes don't divide each other",
+               "Cells would begin between texels, or not repeat with the texture.",
+               "Change one of the sizes that the finding names."},
+      RuleText{Rule::scene_probability, error, "probabilities don't sum to 1",
+               "Numbers would come up more or less often than was meant.", "Change one of them."},
+      RuleText{Rule::scene_index, error, "numbers go beyond what they choose from",
+               "Cells would show nothing.", "Add what is missing, or let the numbers be fewer."},
+      RuleText{Rule::scene_stored, error, "a grid is too large to be stored", not_drawn,
+               "Take a block that computes its numbers, or a coarser grid."},
+      RuleText{Rule::scene_file, error, "a file of the scene is missing or can't be read", not_drawn,
+               "Correct the path, which is meant from the folder of the scene, or make the file."},
+      RuleText{Rule::scene_file_kind, error, "a file is of another kind than the input takes", not_drawn,
+               "Name a file as the finding says, or save it so."},
+      RuleText{Rule::scene_unused, Severity::note, "nothing that is shown is made from a node",
+               "It is passed over, and its files are not read.", "Remove it if it was left by mistake."},
   };
   return table;
 }

@@ -20,10 +20,11 @@ inline constexpr auto enum_names<Severity> =
     std::array{EnumName{Severity::error, "error"}, EnumName{Severity::warning, "warning"},
                EnumName{Severity::note, "note"}};
 
-/// What can be wrong with a pack. The numbers are stable: they are printed as TP101 and so on, scripts may
+/// What can be wrong with a pack or a scene. The numbers are stable: they are printed as TP101 and so on, scripts may
 /// rely on them, and a number that goes out of use is never given to another rule.
 ///
-/// 1xx pack.json · 2xx files · 3xx tiles and their places · 4xx texels · 5xx mapping · 6xx levels · 7xx quality
+/// 1xx pack.json · 2xx files · 3xx tiles and their places · 4xx texels · 5xx mapping · 6xx levels · 7xx quality ·
+/// 8xx scenes
 enum class Rule : int {
   not_json = 101,
   field_missing = 102,
@@ -74,6 +75,20 @@ enum class Rule : int {
   level_stale = 603,
 
   set_poor = 701,
+
+  scene_not_json = 801,
+  scene_field = 802,
+  scene_block = 803,
+  scene_node = 804,
+  scene_kind = 805,
+  scene_circle = 806,
+  scene_size = 807,
+  scene_probability = 808,
+  scene_index = 809,
+  scene_stored = 810,
+  scene_file = 811,
+  scene_file_kind = 812,
+  scene_unused = 813,
 };
 
 /// All there is to say about a rule without looking at a pack.

@@ -34,16 +34,24 @@ auto naming(const PackFolder& folder, const std::string& name, Work work) {
 }
 
 void plan_reading(std::vector<Load>& loads, std::vector<PackedMap>& maps,
-                  const std::vector<std::vector<TextureFile>>& files, const PackFolder& folder) {
+                  const std::vector<std::vector<TextureFile>>& files, const PackFolder& folder,
+                  int first_level) {
   for (std::size_t m = 0; m < maps.size(); ++m) {
     PackedMap& map = maps[m];
     map.levels.resize(static_cast<std::size_t>(levels_in(files[m])));
     std::span<Image> left(map.levels);
+    int level = 0;
     for (const TextureFile& texture : files[m]) {
+      const auto count = texture.levels.size();
+      level += static_cast<int>(count);
+      if (level <= first_level) {
+        left = left.subspan(count);
+        continue;
+      }
       const fs::path file = folder.file(texture.file);
       naming(folder, texture.file, [&] { check_texture_file(file, texture, map.channels, map.depth); });
-      loads.push_back({texture.file, file, left.first(texture.levels.size()), map.encoding});
-      left = left.subspan(texture.levels.size());
+      loads.push_back({texture.file, file, left.first(count), map.encoding});
+      left = left.subspan(count);
     }
   }
 }
@@ -69,6 +77,20 @@ std::vector<int> read_index_map(const fs::path& file, VirtualSize size, int tile
   return ids;
 }
 
+void read_index(Pack& pack, const std::string& name, const PackFolder& folder) {
+  if (pack.mapping.kind != MappingKind::index) return;
+  pack.mapping.ids = naming(folder, name, [&, file = folder.file(name)] {
+    return read_index_map(file, pack.mapping.size, tile_count(pack.tiles));
+  });
+}
+
+void read_textures(const std::vector<Load>& loads, const PackFolder& folder) {
+  tbb::parallel_for(std::size_t{0}, loads.size(), [&](std::size_t i) {
+    const Load& load = loads[i];
+    naming(folder, load.name, [&] { read_texture_file(load.file, load.encoding, load.into); });
+  });
+}
+
 } // namespace
 
 PackDescription read_pack_description(const fs::path& folder_or_json) {
@@ -83,18 +105,23 @@ Pack read_pack(const PackFolder& folder) {
   PackDescription description = folder.description();
   Pack pack = std::move(description.pack);
   std::vector<Load> loads;
-  plan_reading(loads, pack.maps, description.map_files, folder);
-  if (pack.corner_pack) plan_reading(loads, pack.corner_pack->maps, description.corner_files, folder);
-  if (pack.mapping.kind == MappingKind::index) {
-    const std::string& name = description.index_file;
-    pack.mapping.ids = naming(folder, name, [&, file = folder.file(name)] {
-      return read_index_map(file, pack.mapping.size, tile_count(pack.tiles));
-    });
-  }
-  tbb::parallel_for(std::size_t{0}, loads.size(), [&](std::size_t i) {
-    const Load& load = loads[i];
-    naming(folder, load.name, [&] { read_texture_file(load.file, load.encoding, load.into); });
-  });
+  plan_reading(loads, pack.maps, description.map_files, folder, 0);
+  if (pack.corner_pack) plan_reading(loads, pack.corner_pack->maps, description.corner_files, folder, 0);
+  read_index(pack, description.index_file, folder);
+  read_textures(loads, folder);
+  return pack;
+}
+
+Pack read_pack_levels(const PackFolder& folder, int map, int first_level) {
+  PackDescription description = folder.description();
+  Pack pack = std::move(description.pack);
+  const auto at = static_cast<std::size_t>(map);
+  pack.maps = std::vector<PackedMap>{pack.maps.at(at)};
+  pack.corner_pack.reset();
+  std::vector<Load> loads;
+  plan_reading(loads, pack.maps, {description.map_files[at]}, folder, first_level);
+  read_index(pack, description.index_file, folder);
+  read_textures(loads, folder);
   return pack;
 }
 

@@ -17,6 +17,10 @@ Pack read_pack(const std::filesystem::path& folder_or_json);
 /// The same of a folder that is held open; within reading_pack().
 Pack read_pack(const PackFolder& folder);
 
+/// A part of it: map `map` alone, its levels from `first_level` (0..tile_levels-1) on; a finer level of it is empty. Other
+/// maps and the corner pack are left out, and files that hold none of these levels are not opened.
+Pack read_pack_levels(const PackFolder& folder, int map, int first_level);
+
 /// The same without looking at any image.
 PackDescription read_pack_description(const std::filesystem::path& folder_or_json);
 

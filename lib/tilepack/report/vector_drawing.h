@@ -38,7 +38,7 @@ struct DrawingNumber {
 };
 
 /// The characters that rasterised() has; every other is drawn as a box, so that it is seen to be missing.
-constexpr std::string_view drawn_characters = "0123456789aceikmnpvx";
+constexpr std::string_view drawn_characters = "0123456789aceikmnpvxbdfghjloqrstuwyz-_";
 
 /// A short name of drawn_characters, set as a number is.
 struct DrawingWord {
