@@ -35,7 +35,8 @@ namespace tilepack::cli {
 namespace {
 
 struct BakeArguments {
-  std::string sample;
+  std::vector<std::string> samples;
+  bool transition = false;
   std::string folder;
   std::vector<std::string> maps;
   std::string preset;
@@ -81,7 +82,10 @@ std::string listed_presets_json() {
 
 BakeJob job_from(const BakeArguments& arguments) {
   BakeJob job;
-  job.sample = arguments.sample;
+  if (arguments.transition)
+    job.transition = arguments.samples;
+  else if (!arguments.samples.empty())
+    job.sample = arguments.samples.front();
   for (const std::string& map : arguments.maps) job.maps.push_back(parsed_map(map));
   job.preset = arguments.preset;
   for (const auto& [name, value] : arguments.fields)
@@ -124,19 +128,34 @@ void refuse_pattern(const std::string& sample) {
               "is a pattern, and a bake takes one sample: name a file or a folder" + many_samples());
 }
 
+// "pebbles.png", or "pebbles.png to sand.png".
+std::string title_of(const BakeJob& job) {
+  if (job.transition.empty()) return std::filesystem::path(job.sample).filename().string();
+  std::string title;
+  for (const std::string& name : material_names_of(job)) title += (title.empty() ? "" : " to ") + name;
+  return title;
+}
+
 void bake_once(const BakeArguments& arguments, const BakeJob& job, Console& console) {
   const Progress waiting = console.progress();
   std::optional<OutputLock> lock;
   if (!job.folder.empty())
     lock.emplace(job.folder, arguments.wait ? WhenBusy::wait : WhenBusy::refuse,
                  [&](const std::string& who) { report(waiting, "waiting for " + who, 0.0); });
-  BakeSummary story{std::filesystem::path(job.sample).filename().string(), {}, {}};
+  BakeSummary story{title_of(job), {}, {}};
   JobWatch watch;
   watch.progress = [draw = console.progress()](std::string_view, std::string_view stage, double done) {
     draw(stage, done);
   };
   watch.note = [&](std::string_view line) { console.note(spelled(line, FieldSpelling::option)); };
-  if (arguments.apply_advice || !arguments.require.empty())
+  if (arguments.transition && arguments.apply_advice)
+    throw Error(ErrorKind::usage, "--apply-advice", "does not go with --transition; bake again by hand");
+  if (arguments.transition && !arguments.require.empty())
+    watch.accept = [&](const BakedJob& baked) {
+      story.facts = bake_facts(baked.made, baked.samples);
+      refuse_worse(arguments, story.facts, console);
+    };
+  else if (arguments.apply_advice || !arguments.require.empty())
     watch.make = [&](std::span<const SampleMap> samples, const BakeOptions&, const Progress& progress) {
       AdvisedBake best =
           advised_bake(samples, settings_of(job), arguments.apply_advice ? most_tries : 0, progress);
@@ -172,7 +191,7 @@ int bake_watching(const BakeArguments& arguments, const BakeJob& job, Console& c
   std::optional<ContentHash> made;
   console.note("watching; Ctrl-C ends it");
   while (true) {
-    std::vector<std::string> files{job.sample};
+    std::vector<std::string> files = job.transition.empty() ? std::vector{job.sample} : job.transition;
     try {
       files = files_read(job);
     } catch (const Error&) { // the bake says what is wrong
@@ -193,6 +212,16 @@ int bake_watching(const BakeArguments& arguments, const BakeJob& job, Console& c
   }
 }
 
+// Maps whose '=' was left out swallow no file, which is then one argument too many.
+std::string explained_extra(const BakeArguments& arguments, const std::string& extra) {
+  for (const std::string& map : arguments.maps)
+    if (map.find('=') == std::string::npos)
+      return fmt::format("; --map {0} has no '=': write --map {0}={1}", map, extra);
+  return "; one sample a bake, and further maps of the material go by --map ROLE=FILE, several materials by "
+         "--transition" +
+         many_samples();
+}
+
 int run_bake(BakeArguments& arguments, Console& console) {
   if (arguments.list_presets) {
     console.print(arguments.printed.json() ? listed_presets_json() : listed_presets());
@@ -202,7 +231,13 @@ int run_bake(BakeArguments& arguments, Console& console) {
     console.print(kinds_text());
     return 0;
   }
-  refuse_pattern(arguments.sample);
+  for (const std::string& sample : arguments.samples) refuse_pattern(sample);
+  if (!arguments.transition && arguments.samples.size() > 1)
+    throw Error(ErrorKind::usage, "",
+                fmt::format("unexpected argument '{}'{}", arguments.samples[1],
+                            explained_extra(arguments, arguments.samples[1])));
+  if (arguments.transition && arguments.samples.empty())
+    throw Error(ErrorKind::usage, "--transition", "needs 2 to 4 materials: --transition A.png B.png");
   const std::string now = arguments.printed.settle(arguments.fields);
   const JobLimit limit(arguments.jobs);
   const BakeJob job = job_from(arguments);
@@ -210,14 +245,6 @@ int run_bake(BakeArguments& arguments, Console& console) {
   bake_once(arguments, job, console);
   if (!now.empty()) console.note(now);
   return 0;
-}
-
-// Maps whose '=' was left out swallow no file, which is then one argument too many.
-std::string explained_extra(const BakeArguments& arguments, const std::string& extra) {
-  for (const std::string& map : arguments.maps)
-    if (map.find('=') == std::string::npos)
-      return fmt::format("; --map {0} has no '=': write --map {0}={1}", map, extra);
-  return "; one sample a bake, and further maps of the material go by --map ROLE=FILE" + many_samples();
 }
 
 std::string preset_lines() {
@@ -233,9 +260,9 @@ constexpr std::array<std::string_view, 6> first_fields{"tile-size", "colors", "w
 Action declare_bake(Options& options) {
   auto arguments = std::make_shared<BakeArguments>();
   options
-      .option("SAMPLE", arguments->sample,
+      .option("SAMPLE", arguments->samples,
               "image to make tiles from, or folder of the maps of a material (rock_albedo.png, "
-              "rock_normal.png …)")
+              "rock_normal.png …); with --transition 2 to 4 of them")
       .needed();
   options.group(most_used);
   options.option("-o,--output", arguments->folder, "folder of the pack; made if it is not there")
@@ -247,6 +274,10 @@ Action declare_bake(Options& options) {
           "a further map of the material, in register with SAMPLE; may be repeated. ROLE is data or one of " +
               listed_kinds())
       .value("ROLE=FILE");
+  options.flag(
+      "--transition", arguments->transition,
+      "each SAMPLE is a material, and tiles lead from any of them to any other: corner colors are materials, "
+      "0 the first");
   options
       .option("--preset", arguments->preset,
               "options from a built-in preset (below) or a JSON file; flags override it")
@@ -308,7 +339,8 @@ Verb bake_verb() {
           "  tilepack bake gravel.png -o gravel.pack --tile-size 128 --colors 2\n"
           "  tilepack bake rock.png -o rock.pack --map normal=rock_normal.png --preset terrain --seed 7\n"
           "  tilepack bake gravel.png -o gravel.pack --report gravel.html\n"
-          "  tilepack bake materials/rock -o rock.pack\n",
+          "  tilepack bake materials/rock -o rock.pack\n"
+          "  tilepack bake --transition pebbles.png sand.png -o beach.pack\n",
           declare_bake};
 }
 

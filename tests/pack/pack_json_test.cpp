@@ -97,6 +97,43 @@ TEST_CASE("variants are written where there are several, and only complete sets 
   CHECK_FALSE(accepted(one));
 }
 
+TEST_CASE("materials are a name a corner color, and edges have none", "[pack]") {
+  Pack pack = test::noise_pack(MappingKind::even);
+  CHECK_FALSE(json::parse(pack_json(described(pack))).contains("materials"));
+  pack.materials = {"pebbles", "sand"};
+  const std::string text = pack_json(described(pack));
+  const PackDescription again = parsed_pack_json(text, "pack.json");
+  CHECK(again.pack.materials == pack.materials);
+  CHECK(pack_json(again) == text);
+  const json good = json::parse(text);
+  for (const json& names :
+       {json{"pebbles"}, json{"pebbles", "sand", "moss"}, json{"sand", "sand"}, json{"sand", ""},
+        json{"sand", "a b"}, json{"sand", 1}, json("sand"), json::array()}) {
+    json other = good;
+    other["materials"] = names;
+    CHECK_FALSE(accepted(other));
+  }
+  json four = good;
+  four["colors"]["corner"] = 4;
+  four["tiles"] = json::array();
+  const TileColors tiles = complete_set({0, 0, 4, 1});
+  for (const CornerTile& t : std::get<std::vector<CornerTile>>(tiles))
+    four["tiles"].push_back(
+        {{"id", four["tiles"].size()}, {"nw", t.nw}, {"ne", t.ne}, {"sw", t.sw}, {"se", t.se}});
+  for (const json& names : {json{"a", "a", "a", "b"}, json{"a", "b", "a", "b"}, json{"a", "a", "a", "a"}}) {
+    four["materials"] = names; // refused for the names, before the layout is looked at
+    try {
+      parsed_pack_json(four.dump(), "pack.json");
+      FAIL("accepted " + names.dump());
+    } catch (const Error& error) {
+      CHECK(error.message(FieldSpelling::option).find("materials") != std::string::npos);
+    }
+  }
+  json edges = json::parse(pack_json(described(test::noise_pack())));
+  edges["materials"] = json{"pebbles", "sand"};
+  CHECK_FALSE(accepted(edges));
+}
+
 TEST_CASE("files are named after maps and levels", "[pack]") {
   const PackDescription d = described(test::noise_pack(MappingKind::index, Depth::f16));
   CHECK(d.all_files() == std::vector<std::string>{"color_0.png", "color_1.png", "color_2.png", "height_0.exr",

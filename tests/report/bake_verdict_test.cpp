@@ -47,12 +47,13 @@ bool says(const BakeFacts& facts, Grade grade, const std::string& text) {
 
 BakedPack small_bake(const std::vector<SampleMap>& samples, const std::string& coloring,
                      const std::string& flatten = "0") {
-  const std::vector<BakeSetting> settings{{"coloring", coloring, "test", ErrorKind::usage},
-                                          {"flatten", flatten, "test", ErrorKind::usage},
-                                          {"tile-size", "16", "test", ErrorKind::usage},
-                                          {"effort", "0", "test", ErrorKind::usage},
-                                          {"virtual-size", "8", "test", ErrorKind::usage},
-                                          {"wraps", "no", "test", ErrorKind::usage}}; // noise goes on anywhere
+  const std::vector<BakeSetting> settings{
+      {"coloring", coloring, "test", ErrorKind::usage},
+      {"flatten", flatten, "test", ErrorKind::usage},
+      {"tile-size", "16", "test", ErrorKind::usage},
+      {"effort", "0", "test", ErrorKind::usage},
+      {"virtual-size", "8", "test", ErrorKind::usage},
+      {"wraps", "no", "test", ErrorKind::usage}}; // noise goes on anywhere
   return baked(samples, bake_options(settings));
 }
 
@@ -379,4 +380,21 @@ TEST_CASE("the page holds verdict, pictures and figures, and only them", "[bake_
   for (const BakeRemark& remark : bake_verdict(story.facts).remarks)
     CHECK(page.find(remark.text.substr(0, 20)) != std::string::npos);
   CHECK(page == bake_page(story, made, samples));
+}
+
+TEST_CASE("the verdict on a transition is that of its materials and of the borders between them",
+          "[report]") {
+  BakeFacts facts = good_facts();
+  BakeFacts moss = facts, wall = facts;
+  moss.material = "moss";
+  wall.material = "wall";
+  facts.materials = {moss, wall};
+  facts.transition = {120, 0.1, 0.4, {0.25, 0.75}};
+  CHECK(bake_verdict(facts).grade == Grade::good);
+  CHECK(says(facts, Grade::good, "25 % moss, 75 % wall"));
+  facts.transition.through_things = 0.35;
+  CHECK(says(facts, Grade::fair, "some things look cut"));
+  facts.materials[1].report.figures.cut_mean = 100;
+  CHECK(bake_verdict(facts).grade == Grade::poor);
+  CHECK(says(facts, Grade::poor, "wall: Across cuts"));
 }

@@ -7,11 +7,14 @@
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/preset.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/pack/file_name.h"
 #include "tilepack/pack/pack_write.h"
 #include "tilepack/pack/staged_outputs.h"
 #include "tilepack/pack/stored_format_for.h"
+#include "tilepack/tileset/limits.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <tbb/task_group.h>
 
@@ -25,6 +28,15 @@ namespace tilepack {
 namespace {
 
 namespace fs = std::filesystem;
+
+// For a transition with what follows from its materials.
+BakeOptions options_from(const BakeJob& job, std::span<const BakeSetting> settings) {
+  BakeOptions options = bake_options(settings);
+  if (job.transition.empty()) return options;
+  return transition_options(std::move(options), static_cast<int>(job.transition.size()),
+                            setting_of(settings, "colors") != nullptr,
+                            setting_of(settings, "variants") != nullptr);
+}
 
 Error blamed_on_job(const Error& error, const BakeJob& job, std::span<const BakeSetting> settings) {
   const std::string name = error.field();
@@ -136,16 +148,37 @@ void note_no_repeat(const BakeJob& job, const BakedJob& baked, const JobWatch& w
                          tile.width, tile.height));
 }
 
-// Of a sample that was not said to wrap.
+// Of samples that were not said to wrap.
 void note_wrap(const BakeOptions& options, const BakedJob& baked, const JobWatch& watch) {
-  const SampleWrap& wrap = baked.made.wrap;
-  if (options.wraps != WrapChoice::found || wrap == SampleWrap{}) return;
-  watch.note(fmt::format("the sample goes on at its opposite borders{}, so tiles show what lies across them "
-                         "too; {} takes it as it ends",
-                         wrap.x && wrap.y ? ""
-                         : wrap.x         ? " in the east and west"
-                                          : " in the north and south",
-                         field("wraps", "no")));
+  if (options.wraps != WrapChoice::found) return;
+  const auto note = [&](const SampleWrap& wrap, const std::string& sample) {
+    if (wrap == SampleWrap{}) return;
+    watch.note(fmt::format("{} goes on at its opposite borders{}, so tiles show what lies across them "
+                           "too; {} takes it as it ends",
+                           sample,
+                           wrap.x && wrap.y ? ""
+                           : wrap.x         ? " in the east and west"
+                                            : " in the north and south",
+                           field("wraps", "no")));
+  };
+  note(baked.made.wrap, "the sample");
+  for (const BakedMaterial& material : baked.made.materials) note(material.wrap, material.name);
+}
+
+using Tell = std::function<void(const std::vector<std::string>& notes)>;
+
+// What was read, ready for baked().
+std::vector<SampleMap> prepared_material(ReadSamples read, const BakeJob& job, const BakeOptions& options,
+                                         const Tell& tell) {
+  tell(read.notes);
+  tell(prepare_maps(read.maps, options.material));
+  for (const SampleMap& map : read.maps) {
+    const StorageRequest asked{options.format, options.depth};
+    const Depth depth = stored_format_for(map.role, map.encoding, map.depth, asked, StoredFor::pack).depth;
+    if (const std::string clipped = check_storable(map, depth); !clipped.empty()) tell({clipped});
+  }
+  if (const std::string doubt = doubt_about_color(read.maps[0], job.encoding); !doubt.empty()) tell({doubt});
+  return std::move(read.maps);
 }
 
 BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWatch& watch) {
@@ -157,35 +190,35 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   const Progress progress = clock.around(progress_of(job.name, watch.progress));
   report(progress, "reading", 0.0);
   BakedJob baked;
-  ReadSamples read = read_samples(maps, reading_for(job));
-  baked.samples = std::move(read.maps);
-  const auto tell = [&](const std::vector<std::string>& notes) {
+  const Tell tell = [&](const std::vector<std::string>& notes) {
     if (watch.note)
       for (const std::string& note : notes) watch.note(note);
   };
+  const std::vector<std::string> names = material_names_of(job);
+  std::vector<ReadSamples> read;
+  for (const std::string& material : job.transition)
+    read.push_back(read_samples(sample_files(material).files, reading_for(job)));
+  if (names.empty()) read.push_back(read_samples(maps, reading_for(job)));
   tell(notes_on_material(job));
-  tell(read.notes);
-  tell(prepare_maps(baked.samples, options.material));
+  std::vector<TransitionMaterial> materials;
+  for (std::size_t m = 0; m < names.size(); ++m)
+    materials.push_back({names[m], prepared_material(std::move(read[m]), job, options, tell)});
+  baked.samples = materials.empty() ? prepared_material(std::move(read.front()), job, options, tell)
+                                    : materials.front().maps;
   if (const std::string note = replacing_note(job.folder); watch.note && !note.empty()) watch.note(note);
-  for (const SampleMap& map : baked.samples) {
-    const StorageRequest asked{options.format, options.depth};
-    const Depth depth = stored_format_for(map.role, map.encoding, map.depth, asked, StoredFor::pack).depth;
-    if (const std::string clipped = check_storable(map, depth); !clipped.empty()) tell({clipped});
-  }
-  if (const std::string doubt = doubt_about_color(baked.samples[0], job.encoding);
-      watch.note && !doubt.empty())
-    watch.note(doubt);
   baked.read_seconds = watch_of_parts.lap();
   bool begun = false; // all options were found to go together
   const Progress making = [&](std::string_view stage, double done) {
-    if (!std::exchange(begun, true) && watch.note) note_many_tiles(options, watch);
+    if (!std::exchange(begun, true) && watch.note && materials.empty()) note_many_tiles(options, watch);
     report(progress, stage, done);
   };
-  baked.made = watch.make ? watch.make(baked.samples, options, making)
-                          : tilepack::baked(baked.samples, options, making);
-  if (watch.note) note_no_repeat(job, baked, watch);
+  baked.made = !materials.empty() ? baked_transition(materials, options, making)
+               : watch.make       ? watch.make(baked.samples, options, making)
+                                  : tilepack::baked(baked.samples, options, making);
+  if (watch.note && materials.empty()) note_no_repeat(job, baked, watch);
   if (watch.note) note_wrap(options, baked, watch);
   baked.bake_seconds = watch_of_parts.lap();
+  if (watch.accept) watch.accept(baked);
   baked.description = described(baked.made.pack);
   write_job(job, inputs, baked, watch, clock, progress);
   baked.write_seconds = watch_of_parts.lap();
@@ -203,10 +236,37 @@ std::vector<BakeSetting> settings_of(const BakeJob& job) {
 }
 
 BakeOptions options_of(const BakeJob& job) {
-  return blaming(job, [&](const auto& settings) { return bake_options(settings); });
+  return blaming(job, [&](const auto& settings) { return options_from(job, settings); });
+}
+
+std::vector<std::string> material_names_of(const BakeJob& job) {
+  std::vector<std::string> names;
+  for (const std::string& sample : job.transition) {
+    fs::path path(sample);
+    if (path.filename().empty()) path = path.parent_path(); // "materials/rock/"
+    std::string name = fs::is_directory(path) ? path.filename().string() : path.stem().string();
+    for (char& c : name)
+      if (!is_map_name(std::string(1, c))) c = '_';
+    if (name.empty()) name = "material";
+    constexpr std::size_t longest_stem = limits::longest_map_name - 2;
+    name.resize(std::min(name.size(), longest_stem));
+    const std::string stem = name;
+    for (int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
+      name = fmt::format("{}-{}", stem, n);
+    names.push_back(std::move(name));
+  }
+  return names;
 }
 
 std::vector<MaterialFile> maps_of(const BakeJob& job) {
+  if (!job.transition.empty()) {
+    std::vector<MaterialFile> all;
+    for (const std::string& material : job.transition) {
+      const std::vector<MaterialFile> files = sample_files(material).files;
+      all.insert(all.end(), files.begin(), files.end());
+    }
+    return all;
+  }
   std::vector<MaterialFile> files = sample_files(job.sample).files;
   const bool one_image = files.size() == 1 && files.front().file == job.sample;
   const std::size_t found = one_image ? 0 : files.size();
@@ -230,7 +290,11 @@ std::vector<MaterialFile> maps_of(const BakeJob& job) {
 std::vector<std::string> notes_on_material(const BakeJob& job) {
   constexpr std::size_t most = 8;
   std::vector<std::string> notes;
-  std::vector<PassedOver> list = sample_files(job.sample).passed_over;
+  std::vector<PassedOver> list;
+  for (const std::string& sample : job.transition.empty() ? std::vector{job.sample} : job.transition) {
+    const std::vector<PassedOver> passed = sample_files(sample).passed_over;
+    list.insert(list.end(), passed.begin(), passed.end());
+  }
   std::erase_if(list, [&](const PassedOver& over) {
     return std::any_of(job.maps.begin(), job.maps.end(), [&](const MaterialFile& map) {
       std::error_code unknown;
@@ -269,6 +333,8 @@ std::string canonical_options(const BakeJob& job) {
     for (const ChannelContent content : map.contents) list += fmt::format(":{}", name_of(content));
     if (map.normal_y) list += fmt::format(":{}", name_of(*map.normal_y));
   }
+  if (!job.transition.empty())
+    lines["transition"] = fmt::format("{}", fmt::join(material_names_of(job), ","));
   lines["channels"] = job.channels;
   lines["encoding"] = job.encoding ? std::string(name_of(*job.encoding)) : "";
   lines["version"] = TILEPACK_VERSION;
@@ -280,22 +346,38 @@ std::string canonical_options(const BakeJob& job) {
 std::int64_t peak_memory(const BakeJob& job) {
   return blaming(job, [&](const auto& settings) {
     std::vector<MapShape> shapes;
-    for (const MaterialFile& map : maps_of(job)) {
+    const auto add = [&](const MaterialFile& map) {
       const ImageHeader header = read_image_header(map.file, reading_of(map.role, reading_for(job)));
       const int channels = map.role == Role::normal ? std::max(3, header.channels) : header.channels;
       shapes.push_back({header.size, channels, header.depth});
+    };
+    if (job.transition.empty()) {
+      for (const MaterialFile& map : maps_of(job)) add(map);
+    } else { // side by side, as they are joined
+      int width = 0;
+      for (const std::string& material : job.transition) {
+        shapes.clear();
+        for (const MaterialFile& map : sample_files(material).files) add(map);
+        width += shapes.front().size.width;
+      }
+      for (MapShape& shape : shapes) shape.size.width = width;
     }
     const std::size_t threads =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    return memory_estimate(shapes, bake_options(settings), static_cast<int>(threads));
+    return memory_estimate(shapes, options_from(job, settings), static_cast<int>(threads));
   });
 }
 
 BakedJob run(const BakeJob& job, const JobWatch& watch) {
   return blaming(job, [&](const auto& settings) {
-    if (job.sample.empty()) throw Error(ErrorKind::usage, "", "SAMPLE is required");
+    if (job.sample.empty() && job.transition.empty()) throw Error(ErrorKind::usage, "", "SAMPLE is required");
     if (job.folder.empty()) throw Error(ErrorKind::usage, "", field("output") + " is required");
-    return run_checked(job, bake_options(settings), watch);
+    if (!job.transition.empty() && !job.maps.empty())
+      throw Error(
+          ErrorKind::usage, field("map"),
+          "does not go with " + field("transition") +
+              ", for nothing says which material it is of; give each material as a folder of its maps");
+    return run_checked(job, options_from(job, settings), watch);
   });
 }
 

@@ -28,12 +28,13 @@ namespace tilepack {
 /// the field was set, however late it is found out: that of the setting ("wall.json: \"layout\""), else
 /// `place` with the field's name, else field("layout") as it came.
 struct BakeJob {
-  std::string name = {};                  ///< what progress calls it; may be empty
-  std::string sample = {};                ///< an image, or what else sample_files() takes
-  std::vector<MaterialFile> maps = {};    ///< further maps of the material, after those of `sample`
-  std::string preset = {};                ///< a built-in one or a file; empty: none
-  std::vector<BakeSetting> settings = {}; ///< these override the preset's
-  std::optional<Encoding> encoding = {};  ///< of color samples; unset: as their files say
+  std::string name = {};                    ///< what progress calls it; may be empty
+  std::string sample = {};                  ///< an image, or what else sample_files() takes
+  std::vector<std::string> transition = {}; ///< in place of `sample`: 2 to 4 of them, for baked_transition()
+  std::vector<MaterialFile> maps = {};      ///< further maps of the material, after those of `sample`
+  std::string preset = {};                  ///< a built-in one or a file; empty: none
+  std::vector<BakeSetting> settings = {};   ///< these override the preset's
+  std::optional<Encoding> encoding = {};    ///< of color samples; unset: as their files say
   std::string channels = {}; ///< of color samples, by name: "R,G,B"; empty: as channel_choice.h has it
   std::int64_t max_texels = usual_most_texels; ///< samples of more are refused before memory is taken
   std::string folder = {};                     ///< of the pack
@@ -45,10 +46,14 @@ struct BakeJob {
 /// The preset's settings and then the job's own.
 std::vector<BakeSetting> settings_of(const BakeJob& job);
 
-/// What they come to. Throws as preset_called and bake_options do.
+/// What the materials of a transition are called: as their files and folders, in letters, digits, '-' and '_', each
+/// once.
+std::vector<std::string> material_names_of(const BakeJob& job);
+
+/// What they come to. Throws as preset_called, bake_options and, for a transition, transition_options do.
 BakeOptions options_of(const BakeJob& job);
 
-/// The maps of the material, the main one first. A map that is named goes before one of that name that was found
+/// The maps of the material, the main one first; of a transition, of one material after the other. A map that is named goes before one of that name that was found
 /// in a folder. Throws as sample_files does.
 std::vector<MaterialFile> maps_of(const BakeJob& job);
 
@@ -67,7 +72,7 @@ std::vector<std::string> files_written(const BakeJob& job);
 /// the set asks for), "channels", "encoding", "maps" (NAME:ROLE in order, and what else their
 /// names say, without their files) and "version" (of
 /// tilepack). Two jobs with the same text and the same content of maps make the same pack. Where an option was
-/// set, from which preset, and what the files are called has no say in it.
+/// set, from which preset, and what the files are called has no say in it, but for the names of a transition's materials.
 std::string canonical_options(const BakeJob& job);
 
 /// Most bytes that run() will hold at a time, the program itself included: an estimate from the headers of the
@@ -93,10 +98,13 @@ std::vector<std::string> files_written(const BakeJob& job, const BakedJob& baked
 struct JobWatch {
   JobProgress progress = {};
 
-  /// Makes the pack in place of baked(), which it has to call in some way; throwing refuses what was made.
+  /// Makes the pack in place of baked(), not of baked_transition(); it has to call in some way; throwing refuses what was made.
   std::function<BakedPack(std::span<const SampleMap> samples, const BakeOptions& options,
                           const Progress& progress)>
       make = {};
+
+  /// Called when the pack is made and nothing is written; throwing refuses it.
+  std::function<void(const BakedJob& baked)> accept = {};
 
   /// Takes a line for the user, with marked fields, as soon as there is something to tell.
   std::function<void(std::string_view line)> note = {};

@@ -34,7 +34,7 @@ struct RoundTrip {
 struct PackedMap : MapFormat {
   int channels = 0;
   std::vector<Image> levels;
-  std::vector<RoundTrip> round_trips; ///< rotated layouts: one a filter, in the order of ResampleFilter
+  std::vector<RoundTrip> round_trips;      ///< rotated layouts: one a filter, in the order of ResampleFilter
   std::optional<ImageContainer> container; ///< unset: the usual one of the depth
 
   StoredFormat stored() const { return {container.value_or(usual_container(depth)), depth, encoding}; }
@@ -83,7 +83,9 @@ struct Pack {
   std::optional<CornerPack> corner_pack;
   MipMode mip_mode = MipMode::edges;
   int guard = 0;
-  int tile_levels = 0;                 ///< number of levels, level 0 counted
+  int tile_levels = 0; ///< number of levels, level 0 counted
+  std::vector<std::string>
+      materials; ///< of a transition: the names of its materials, by corner color; else none
   std::optional<SetFigures> synthesis; ///< of a set made from a sample; nothing here is needed to sample it
 };
 

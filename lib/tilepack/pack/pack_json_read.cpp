@@ -380,6 +380,36 @@ CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vect
   return packed;
 }
 
+// A name a corner color.
+std::vector<std::string> read_materials(const JsonCursor& value, const ColorCounts& colors) {
+  if (colors.corner < 2)
+    value.fail(fmt::format("is there, but materials are corner colors, and there {}; remove the field",
+                           colors.corner == 1 ? "is one" : "are none"));
+  std::vector<std::string> names;
+  const auto count = static_cast<std::size_t>(colors.corner);
+  value.array(count, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonCursor item = value.item(i);
+    const std::string name = item.text();
+    if (!is_map_name(name))
+      item.fail(fmt::format("{} is no name of a material: 1 to {} letters, digits, '-' and '_'", item.shown(),
+                            limits::longest_map_name));
+    if (std::find(names.begin(), names.end(), name) != names.end() && names.back() != name)
+      item.fail(fmt::format(
+          "{} stands apart from where it stood; the colors of a material follow one another", item.shown()));
+    names.push_back(name);
+  }
+  const auto colors_of = [&](const std::string& name) {
+    return std::count(names.begin(), names.end(), name);
+  };
+  for (const std::string& name : names)
+    if (colors_of(name) != colors_of(names.front()))
+      value.fail(fmt::format("gives {} {} and {} {} of the corner colors; all materials have as many",
+                             names.front(), colors_of(names.front()), name, colors_of(name)));
+  if (names.front() == names.back()) value.fail("names one material alone, and a transition has several");
+  return names;
+}
+
 SetFigures read_synthesis(const JsonCursor& value) {
   std::vector<std::string> known;
   SetFigures figures;
@@ -402,8 +432,8 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
         fmt::format("is {}, and this program reads 1; read the pack with a newer tilepack, or bake it again",
                     version.shown()));
   version.integer(1, 1);
-  root.only({"format", "version", "generator", "tile_size", "coloring", "colors", "variants", "tiles",
-             "layout", "maps", "mapping", "corner_pack", "mips", "synthesis"});
+  root.only({"format", "version", "generator", "tile_size", "coloring", "colors", "variants", "materials",
+             "tiles", "layout", "maps", "mapping", "corner_pack", "mips", "synthesis"});
   PackDescription result;
   Pack& pack = result.pack;
   pack.generator = read_generator(root.member("generator"));
@@ -412,6 +442,7 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   pack.colors = read_colors(root.member("colors"), coloring);
   if (const auto variants = root.find("variants"))
     pack.colors.variants = variants->small_integer(2, limits::most_variants);
+  if (const auto materials = root.find("materials")) pack.materials = read_materials(*materials, pack.colors);
   pack.tiles = read_tiles(root.member("tiles"), coloring, pack.colors);
   pack.layout = read_layout(root.member("layout"), pack.tiles, pack.tile_size);
   read_mips(root.member("mips"), pack);

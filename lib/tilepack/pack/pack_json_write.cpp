@@ -124,7 +124,7 @@ JsonValue mapping_json(const Mapping& mapping, const std::string& index_file) {
     json["seed"] = mapping.seed;
     json["pattern"] = digits_json(mapping.table);
     if (!mapping.variants.empty()) json["variants"] = digits_json(mapping.variants);
-    break;
+      break;
   case MappingKind::index:
     json["file"] = index_file;
     break;
@@ -206,6 +206,7 @@ PackDescription described(const Pack& pack) {
   bare.mip_mode = pack.mip_mode;
   bare.guard = pack.guard;
   bare.tile_levels = pack.tile_levels;
+  bare.materials = pack.materials;
   bare.synthesis = pack.synthesis;
   result.map_files = named_files(pack.maps, "");
   if (pack.corner_pack) {
@@ -230,6 +231,7 @@ std::string pack_json(const PackDescription& description) {
                        ? JsonValue{{"horizontal", pack.colors.horizontal}, {"vertical", pack.colors.vertical}}
                        : JsonValue{{"corner", pack.colors.corner}};
   if (pack.colors.variants > 1) json["variants"] = pack.colors.variants;
+  if (!pack.materials.empty()) json["materials"] = pack.materials;
   json["tiles"] = tiles_json(pack.tiles);
   json["layout"] = layout_json(pack.layout, pack.tile_size);
   json["maps"] = maps_json(pack.maps, description.map_files);

@@ -95,6 +95,7 @@ std::string figures_table(const BakeFacts& facts) {
       "tiles without a texel in common that would be as varied");
   row("difference of distributions", share(f.histogram_distance),
       "RMS, between the tiles' values, slow brightness and contrast and the sample's");
+  if (!facts.materials.empty()) return out + "</table>\n"; // the rest is about one sample
   const auto period = [](const Period& p) {
     return p.length > 0 ? fmt::format("{:.2f}", p.length) : std::string("none");
   };
@@ -109,6 +110,30 @@ std::string figures_table(const BakeFacts& facts) {
   row("two tones", share(facts.nature.two_tone),
       "of its variance are explained by two tones; 64 % in a bell curve");
   return out + "</table>\n";
+}
+
+// Each material of a transition as a set by itself, and the borders between them.
+std::string materials_section(const BakeFacts& facts) {
+  if (facts.materials.empty()) return {};
+  std::string out =
+      "<h2>Materials</h2>\n<table><tr><th>corner color</th><th>material</th><th>sample</th><th>of the tiles "
+      "</th><th>shown of the sample</th><th>visibility of cuts, mean</th><th>95 %</th><th>by "
+      "itself</th></tr>\n";
+  for (std::size_t m = 0; m < facts.materials.size(); ++m) {
+    const BakeFacts& material = facts.materials[m];
+    const SetFigures& f = material.report.figures;
+    out += fmt::format("<tr><td>{}</td><td>{}</td><td>{} x {}</td><td>{:.1f} %</td><td>{:.0f} %</td>"
+                       "<td>{:.2f}</td><td>{:.2f}</td><td>{}</td></tr>\n",
+                       m, escaped(material.material), material.sample.width, material.sample.height,
+                       facts.transition.shown[m] * 100, f.coverage * 100, f.cut_mean, f.cut_p95,
+                       name_of(bake_verdict(material).grade));
+  }
+  return out +
+         fmt::format("</table>\n<p>A tile of several materials has {:.0f} texels of border between them, "
+                     "{:.0f} % of which run through the inside of things; of straight ones {:.0f} % "
+                     "would.</p>\n",
+                     facts.transition.border_length, facts.transition.through_things * 100,
+                     facts.transition.expected * 100);
 }
 
 std::string tiles_table(const SetReport& report, int most) {
@@ -171,9 +196,10 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
   const Image sample = viewable(main.image, main.role, main.encoding);
   const Size tile = made.pack.tile_size;
   std::string page = fmt::format(
-      "<h1>{}</h1>\n<p>{} x {} texels, {} map{}{}{}; {} tile{} of {} x {} texels.</p>\n",
-      escaped(story.sample), facts.sample.width, facts.sample.height, samples.size(),
-      samples.size() == 1 ? "" : "s",
+      "<h1>{}</h1>\n<p>{}{} x {} texels, {} map{}{}{}; {} tile{} of {} x {} texels.</p>\n",
+      escaped(story.sample),
+      facts.materials.empty() ? "" : fmt::format("{} materials side by side: ", facts.materials.size()),
+      facts.sample.width, facts.sample.height, samples.size(), samples.size() == 1 ? "" : "s",
       made.straightened > 0
           ? fmt::format(", straightened: courses were moved by up to {:.1f} texels", made.straightened)
           : "",
@@ -184,6 +210,7 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
     page += fmt::format("<p>Tile size: {}</p>\n",
                         escaped(spelled(size_choice_text(facts), FieldSpelling::option)));
 
+  page += materials_section(facts);
   page += "<h2>The texture and its tiles</h2>\n<div class=\"row\">\n";
   PackPictureOptions bare;
   bare.marks = false;

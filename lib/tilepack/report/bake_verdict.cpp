@@ -146,7 +146,8 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
   suggest({"seed", ""}, "another ");
   const int colors =
       o.coloring == Coloring::corner ? o.colors.corner : std::max(o.colors.horizontal, o.colors.vertical);
-  if (colors > 2) suggest({"colors", "2"}, "", " (fewer parts that must fit one another)");
+  if (colors > 2 && facts.material.empty())
+    suggest({"colors", "2"}, "", " (fewer parts that must fit one another)");
   add(remarks, mean > limit::cut_mean_poor || worst > limit::cut_p95_poor ? Grade::poor : Grade::fair,
       "cuts-seen", fmt::format("{}: some can be seen. Try {}.", found, options), first);
 }
@@ -251,6 +252,11 @@ WayOut way_to_variety(const BakeFacts& facts) {
     return {held < limit::tiles_held_fair ? "" : " A larger sample or smaller tiles show more.",
             std::nullopt};
   if (more > (corner ? limits::most_corner_colors : limits::most_edge_colors)) return {};
+  if (!facts.material.empty()) {
+    if (k.variants >= limits::most_variants) return {};
+    const Cure cure{"variants", std::to_string(limits::most_variants)};
+    return {fmt::format(" {} shows more.", shown(cure)), cure};
+  }
   const bool sequential = facts.tiles < combinations(k);
   const Cure cure{"colors", std::to_string(more)};
   return {fmt::format(" {} shows more, in {} tiles.", shown(cure),
@@ -337,6 +343,27 @@ std::vector<JudgedFigure> judged_figures(const BakeFacts& facts) {
           {"mark shown", mark.shown, limit::landmark_shown_fair, limit::landmark_shown_poor}};
 }
 
+namespace {
+
+// Of a material as a set by itself: its corner colors, and one for where it is not shown.
+BakeFacts material_facts(const BakedPack& made, const BakedMaterial& material) {
+  BakeFacts facts;
+  facts.report = material.report;
+  facts.nature = sample_traits(material.sample.features, material.sample.periods, made.synth.tile_size);
+  facts.synth = made.synth;
+  facts.synth.colors.corner = 1 + made.synth.colors.corner / static_cast<int>(made.materials.size());
+  facts.flatten = made.flatten;
+  facts.flat_drift = facts.nature.drift; // what flattening would leave is not found out
+  facts.sample = material.size;
+  facts.tiles = combinations(facts.synth.colors) * facts.synth.colors.variants;
+  facts.size_chosen = made.size_chosen;
+  facts.straightened = material.straightened;
+  facts.material = material.name;
+  return facts;
+}
+
+} // namespace
+
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) {
   constexpr int worst_borders = 3;
   BakeFacts facts{made.report,
@@ -350,6 +377,14 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
                   {},
                   made.size_chosen,
                   made.straightened};
+  if (!made.materials.empty()) {
+    for (const BakedMaterial& material : made.materials)
+      facts.materials.push_back(material_facts(made, material));
+    facts.transition = made.transition;
+    facts.sample = made.prepared.front().image.size();
+    facts.size_chosen = false; // what is said of a choice is about one sample
+    return facts;
+  }
   for (const SampleMap& map : samples)
     if (facts.fireflies.empty()) facts.fireflies = listed(fireflies(map));
   if (made.flatten < 100 && has_shading(facts.nature)) {
@@ -362,9 +397,10 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
 
 std::span<const std::string_view> remark_codes() {
   static constexpr std::string_view codes[] = {
-      "plain",          "sample-small", "shading",   "writing",  "periods-held",  "periods-broken",
-      "no-cuts",        "cuts-hidden",  "cuts-seen", "varied",   "few-parts",     "shown-often",
-      "borders-hidden", "borders-seen", "one-tile",  "landmark", "values-differ", "fireflies"};
+      "plain",          "sample-small", "shading",      "writing",        "periods-held",
+      "periods-broken", "no-cuts",      "cuts-hidden",  "cuts-seen",      "varied",
+      "few-parts",      "shown-often",  "border-round", "border-through", "borders-hidden",
+      "borders-seen",   "one-tile",     "landmark",     "values-differ",  "fireflies"};
   return codes;
 }
 
@@ -391,7 +427,49 @@ BakeVerdict pack_verdict(const Pack& pack) {
   return verdict;
 }
 
+namespace {
+
+// What is wrong with each material by itself, and how the borders between them run.
+BakeVerdict transition_verdict(const BakeFacts& facts) {
+  BakeVerdict verdict;
+  std::string shares;
+  for (std::size_t m = 0; m < facts.materials.size(); ++m) {
+    const BakeFacts& material = facts.materials[m];
+    for (BakeRemark& remark : bake_verdict(material).remarks) {
+      if (remark.grade == Grade::good) continue;
+      remark.text = fmt::format("{}: {}", material.material, remark.text);
+      verdict.remarks.push_back(std::move(remark));
+    }
+    shares += fmt::format("{}{:.0f} % {}", shares.empty() ? "" : ", ", percent(facts.transition.shown[m]),
+                          material.material);
+  }
+  const TransitionFigures& figures = facts.transition;
+  const bool seen = figures.through_things > limit::border_through_fair;
+  std::string text = fmt::format("Tiles show {}. {:.0f} % of the borders between them run through the inside "
+                                 "of what the materials show; of "
+                                 "straight ones {:.0f} % would",
+                                 shares, percent(figures.through_things), percent(figures.expected));
+  if (seen) {
+    const Cure cure{"seed", ""};
+    add(verdict.remarks, Grade::fair, "border-through",
+        fmt::format("{}: some things look cut. Try another {}, or larger tiles.", text, shown(cure)), cure);
+  } else {
+    add(verdict.remarks, Grade::good, "border-round", text + ": they run round things.");
+  }
+  return verdict;
+}
+
+BakeVerdict worst_first(BakeVerdict verdict) {
+  std::stable_sort(verdict.remarks.begin(), verdict.remarks.end(),
+                   [](const BakeRemark& a, const BakeRemark& b) { return a.grade > b.grade; });
+  verdict.grade = verdict.remarks.front().grade;
+  return verdict;
+}
+
+} // namespace
+
 BakeVerdict bake_verdict(const BakeFacts& facts) {
+  if (!facts.materials.empty()) return worst_first(transition_verdict(facts));
   BakeVerdict verdict;
   if (facts.report.figures.sample_step == 0) {
     add(verdict.remarks, Grade::good, "plain",
@@ -410,10 +488,7 @@ BakeVerdict bake_verdict(const BakeFacts& facts) {
         fmt::format(
             "The sample has {}. They hardly count where tiles are cut, but tiles show them: paint them over.",
             facts.fireflies));
-  std::stable_sort(verdict.remarks.begin(), verdict.remarks.end(),
-                   [](const BakeRemark& a, const BakeRemark& b) { return a.grade > b.grade; });
-  verdict.grade = verdict.remarks.front().grade;
-  return verdict;
+  return worst_first(std::move(verdict));
 }
 
 } // namespace tilepack

@@ -27,11 +27,16 @@ struct BakeFacts {
   Size sample;
   int tiles = 0;
   std::string fireflies = {}; ///< how many of the sample and where, as listed() has it; empty: none
-  bool size_chosen = false; ///< synth.tile_size was found to suit the sample
-  double straightened = 0; ///< texels, the furthest that a course of the sample was moved; 0: none was
+  bool size_chosen = false;   ///< synth.tile_size was found to suit the sample
+  double straightened = 0;    ///< texels, the furthest that a course of the sample was moved; 0: none was
+
+  std::string material =
+      {}; ///< these are the facts of a material of a transition, as a set by itself; else empty
+  std::vector<BakeFacts> materials = {}; ///< of a transition: its materials'
+  TransitionFigures transition = {};     ///< of a transition
 };
 
-/// `samples`: those that baked() got.
+/// `samples`: those that baked() got; of a transition, any.
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples);
 
 enum class Grade { good, fair, poor };

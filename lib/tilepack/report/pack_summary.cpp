@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace tilepack {
 namespace {
@@ -57,6 +58,16 @@ std::string layout_text(const Layout& layout) {
   if (layout.kind == LayoutKind::array)
     return fmt::format("array, {} layers, border {},", layout.rows, layout.border);
   return fmt::format("{}, {} x {} cells", name_of(layout.kind), layout.columns, layout.rows);
+}
+
+// Which corner color is which material, and how pictures of the pack mark it (color_paint).
+std::string materials_text(const std::vector<std::string>& materials) {
+  constexpr std::array marks{"orange", "blue", "green", "pink"};
+  std::string text;
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    text += fmt::format("{}{} {} ({} in pictures)", i == 0 ? "materials " : ", ", i, materials[i],
+                        marks[i % marks.size()]);
+  return text.empty() ? text : text + "\n";
 }
 
 // The grid as it lies in the texture: id and colors a cell.
@@ -160,6 +171,7 @@ std::string summary_text(const PackSummary& summary) {
       pack.colors.variants > 1 ? fmt::format(", {} variants of each combination", pack.colors.variants) : "";
   std::string text = fmt::format("{}\ntiles     {} of {} x {} texels, {}{}\n", summary.subject,
                                  tile_count(pack.tiles), tile.width, tile.height, colors, variants);
+  text += materials_text(pack.materials);
   const Size texture = texture_size(pack.layout, tile, 0);
   text +=
       fmt::format("layout    {} = {} x {} texels\n", layout_text(pack.layout), texture.width, texture.height);

@@ -119,6 +119,19 @@ JsonValue synthesis_json(const BakeFacts& facts) {
   return json;
 }
 
+// Of each material what is shown of it, and its figures as a set by itself.
+JsonValue transition_json(const BakeFacts& facts) {
+  JsonValue json{{"border_length", facts.transition.border_length},
+                 {"through_things", facts.transition.through_things},
+                 {"straight_through_things", facts.transition.expected}};
+  json["materials"] = JsonValue::array();
+  for (std::size_t m = 0; m < facts.materials.size(); ++m)
+    json["materials"].push_back({{"name", facts.materials[m].material},
+                                 {"shown", facts.transition.shown[m]},
+                                 {"synthesis", figures_json(facts.materials[m].report.figures)}});
+  return json;
+}
+
 JsonValue verdict_json(const BakeFacts& facts) {
   const BakeVerdict verdict = bake_verdict(facts);
   JsonValue json;
@@ -190,6 +203,7 @@ std::string summary_json(const PackSummary& summary) {
     json["corner_pack"] = corner_pack_json(*pack.corner_pack);
     json["corner_pack"]["maps"] = maps_json(summary, pack.corner_pack->maps, description.corner_files);
   }
+  if (!pack.materials.empty()) json["materials"] = pack.materials;
   if (pack.synthesis) json["synthesis"] = figures_json(*pack.synthesis);
   if (summary.seams) json["seams"] = seams_json(*summary.seams);
   return json_text(json);
@@ -205,6 +219,7 @@ std::string made_json(const PackDescription& made, const std::string& folder, co
   json["layout"] = name_of(pack.layout.kind);
   json["mapping"] = name_of(pack.mapping.kind);
   json["virtual_size"] = JsonValue::array({pack.mapping.size.width, pack.mapping.size.height});
+  if (!pack.materials.empty()) json["materials"] = pack.materials;
   if (pack.layout.kind == LayoutKind::rotated) json["rotated"] = rotated_json(pack.layout.rotated);
   if (pack.corner_pack) json["corner_pack"] = corner_pack_json(*pack.corner_pack);
   json["maps"] = JsonValue::array();
@@ -213,7 +228,9 @@ std::string made_json(const PackDescription& made, const std::string& folder, co
   json["files"].push_back("pack.json");
   if (facts) {
     if (facts->straightened > 0) json["straightened"] = facts->straightened;
-    json["synthesis"] = synthesis_json(*facts);
+    json["synthesis"] =
+        facts->materials.empty() ? synthesis_json(*facts) : figures_json(facts->report.figures);
+    if (!facts->materials.empty()) json["transition"] = transition_json(*facts);
     json["verdict"] = verdict_json(*facts);
     if (facts->size_chosen) json["size_choice"] = size_choice_json(*facts);
   }

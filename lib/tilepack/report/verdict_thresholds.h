@@ -26,6 +26,10 @@ constexpr double least_sample_step = 0.5;
 constexpr double border_fair = 0.1;
 constexpr double border_poor = 0.4;
 
+// ---- Transitions: share of the borders between materials that run where a material is flat, as inside things
+// (TransitionGuide::inside of half its range or more). (judgement)
+constexpr double border_through_fair = 0.2; ///< above: fair
+
 // ---- Repeats of the sample. (judgement)
 /// Of a period: by how much a tile side that holds no whole number of them may be off and be fair all the same.
 constexpr double period_misfit_poor = 0.1;
