@@ -6,7 +6,7 @@
 build_packages="g++ cmake ninja-build libpng-dev zlib1g-dev libopenimageio-dev libimath-dev libopencv-core-dev libopencv-imgproc-dev
   libcli11-dev nlohmann-json3-dev libtbb-dev libhwy-dev libfmt-dev libxxhash-dev"
 test_packages="catch2 make clang-14 libclang-rt-14-dev python3 python3-jsonschema glslang-tools spirv-tools spirv-cross libegl1
-  libgl1-mesa-dri groff parallel zsh fish slurmctld slurmd slurm-client munge"
+  libgl1-mesa-dri mesa-vulkan-drivers libvulkan-dev groff parallel zsh fish slurmctld slurmd slurm-client munge"
 
 # Words of $1 that are no installed package. All of them where there is no dpkg.
 missing_packages() {

@@ -1,6 +1,7 @@
 #include "support/good_pack.h"
 
 #include "tilepack/check/structure_checks.h"
+#include "tilepack/mip/far_levels.h"
 #include "tilepack/mip/level_size.h"
 
 #include <fmt/format.h>
@@ -117,6 +118,27 @@ TEST_CASE("a good pack has no issues") {
     INFO(listing(issues));
     CHECK(issues.empty());
   }
+}
+
+TEST_CASE("far levels must be there, and the means of the last level of tiles") {
+  GoodPackOptions options;
+  options.mips = MipMode::box;
+  Pack good = good_pack(options);
+  good.full_chain = true;
+  PackedMap& map = good.maps[0];
+  const TileMap format{map, {Image(1, 1, 3)}};
+  for (const Image& level : far_levels({map.levels.back(), format}, 1,
+                                       far_level_sizes(good.layout, good.tile_size, good.tile_levels)))
+    map.far_levels.push_back(quantised(level, map.depth));
+  REQUIRE(map.far_levels.size() == 2);
+  CHECK_FALSE(has(check_structure(good), Rule::level_stale));
+  CHECK_FALSE(has(check_structure(good), Rule::levels_missing));
+  Pack missing = good;
+  missing.maps[0].far_levels.pop_back();
+  CHECK(has(check_structure(missing), Rule::levels_missing));
+  Pack stale = good;
+  std::ranges::fill(stale.maps[0].far_levels[1].data(), 1.0f);
+  CHECK(has(check_structure(stale), Rule::level_stale));
 }
 
 TEST_CASE("each corruption of a good pack is caught by its own rule") {

@@ -12,6 +12,7 @@ import unittest
 import jsonschema
 
 from command import SOURCE, TILEPACK, CommandCase, float_exr
+from png_image import read_png
 from png_image import write_png
 
 SMALL = ("--tile-size", 16, "--effort", 0, "--virtual-size", 8)
@@ -207,6 +208,26 @@ class Bake(CommandCase):
             with self.subTest(size):
                 self.bake("--tile-size", size)
                 self.assertEqual(self.pack()["mips"]["tile_levels"], levels)
+
+    def test_levels_go_on_to_the_mean_of_the_pack(self):
+        self.bake("--full-mips", "--tile-size", "24x16")
+        pack = self.pack()
+        levels = pack["maps"][0]["levels"]
+        self.assertEqual(pack["mips"]["tile_levels"], 4)
+        self.assertIs(pack["mips"]["full_chain"], True)
+        self.assertEqual([level["size"] for level in levels], [[96, 64], [48, 32], [24, 16], [12, 8], [6, 4], [3, 2], [1, 1]])
+        self.assertEqual(pack["generator"]["options"]["full-mips"], "true")
+        self.run_tilepack("validate", "out")
+        means = []
+        for level in (levels[3], levels[6]):  # as light
+            rows, channels, _ = read_png(self.path("out", level["file"]))
+            light = [[(v / 255 / 12.92 if v < 10.02 else ((v / 255 + 0.055) / 1.055) ** 2.4) for v in row] for row in rows]
+            means.append([sum(row[x] for row in light for x in range(c, len(row), channels)) * channels / (len(rows) * len(rows[0])) for c in range(channels)])
+        for fine, coarse in zip(*means):
+            self.assertAlmostEqual(fine, coarse, delta=0.004)
+        self.refused("bake", "sample.png", "-o", "out", "--full-mips", "--mips", "none", code=1, saying="--full-mips")
+        self.bake()
+        self.assertNotIn("full-mips", self.pack()["generator"]["options"])
 
     def test_presets_are_listed_for_machines_too(self):
         listing = json.loads(self.run_tilepack("bake", "--list-presets", "--report-format", "json").stdout)

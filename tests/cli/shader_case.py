@@ -17,7 +17,7 @@ CELL_OF = """
   h = h ^ (h >> 16u);
   {word} near = h % 400u - 200u;
   {word} kind = (i >> axis) & 3u;
-  return kind == 0u ? h : kind == 1u ? near : kind == 2u ? near + 0x80000000u : near + 0x40000000u;
+  return kind == 0u ? h : (kind == 1u ? near : (kind == 2u ? near + 0x80000000u : near + 0x40000000u));
 }}
 """
 
@@ -37,6 +37,7 @@ PACKS = {
     "permutation": ["--mapping", "permutation", "--virtual-size", "100x77"],
     "index": ["--mapping", "index", "--coloring", "edge", "--virtual-size", "70x33"],
     "array": ["--layout", "array", "--border", "2", "--coloring", "edge"],
+    "full": ["--colors", "3", "--full-mips"],
     "corners": ["--coloring", "edge", "--corner-pack", "--interior", "quilt", "--mapping", "mix"],
     "rotated": ["--set", "sequential", "--coloring", "edge", "--layout", "rotated", "--virtual-size", "24x24"],
 }

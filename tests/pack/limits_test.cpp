@@ -79,7 +79,7 @@ TEST_CASE("the schema's numbers are the limits of the library", "[pack]") {
            {"/$defs/rotated_layout/properties/cells/maxItems", most_tiles},
            {"/$defs/maps/maxItems", most_maps},
            {"/$defs/maps/items/properties/channels/maximum", most_map_channels},
-           {"/$defs/maps/items/properties/levels/maxItems", most_levels},
+           {"/$defs/maps/items/properties/levels/maxItems", most_chain_levels},
            {"/$defs/mips/properties/tile_levels/maximum", most_levels},
            {"/$defs/mips/properties/guard/maximum", largest_tile_side},
            {"/$defs/virtual_size/items/maximum", longest_virtual_side},

@@ -1,6 +1,7 @@
 #include "support/noise_pack.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/mip/far_levels.h"
 #include "tilepack/pack/map_meaning.h"
 #include "tilepack/pack/pack_json.h"
 #include "tilepack/tileset/limits.h"
@@ -216,6 +217,33 @@ TEST_CASE("fields that contradict each other are refused", "[pack]") {
   CHECK_FALSE(changed("/mapping/table/0", good["mapping"]["table"].size())); // beyond its own length
   CHECK_FALSE(changed("/format", "tilepac"));
   CHECK_FALSE(changed("/version", 2));
+}
+
+TEST_CASE("a full chain is read back, and held to its sizes", "[pack]") {
+  Pack pack = test::noise_pack();
+  pack.full_chain = true;
+  for (PackedMap& map : pack.maps)
+    for (const Size size : far_level_sizes(pack.layout, pack.tile_size, pack.tile_levels))
+      map.far_levels.emplace_back(size.width, size.height, map.channels);
+  const json good = json::parse(pack_json(described(pack)));
+  const std::size_t levels = good["maps"][0]["levels"].size();
+  CHECK(good["mips"]["full_chain"] == true);
+  CHECK(levels == pack.maps[0].levels.size() + pack.maps[0].far_levels.size());
+  CHECK(good["maps"][0]["levels"].back()["size"] == json({1, 1}));
+  CHECK(parsed_pack_json(good.dump(), "pack.json").pack.full_chain);
+  CHECK_FALSE(json::parse(pack_json(described(test::noise_pack())))["mips"].contains("full_chain"));
+  const auto changed = [&](const std::string& place, const json& value) {
+    json other = good;
+    other[json::json_pointer(place)] = value;
+    return accepted(other);
+  };
+  REQUIRE(changed("/tile_size", good["tile_size"]));
+  CHECK_FALSE(changed("/mips/full_chain", false)); // too many levels
+  CHECK_FALSE(changed("/mips/full_chain", 1));
+  CHECK_FALSE(changed("/maps/0/levels/" + std::to_string(levels - 1) + "/size", {2, 1}));
+  json short_of_one = good;
+  short_of_one["maps"][1]["levels"].erase(levels - 1);
+  CHECK_FALSE(accepted(short_of_one));
 }
 
 TEST_CASE("what values stand for is kept, and is for maps of one role", "[pack]") {

@@ -5,6 +5,7 @@
 #include "tilepack/bake/packing.h"
 #include "tilepack/error/error.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/mip/far_levels.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/pack_write.h"
 
@@ -61,6 +62,27 @@ TEST_CASE("a pack comes back as it was written, and is written again to the same
       CHECK(contents(temporary / "a") == contents(temporary / "b"));
       CHECK(read_pack(temporary / "a" / "pack.json").tile_size == pack.tile_size);
     }
+}
+
+TEST_CASE("far levels are files after those of tiles", "[pack]") {
+  const ScratchFolder temporary;
+  Pack pack = test::noise_pack();
+  pack.full_chain = true;
+  for (PackedMap& map : pack.maps)
+    for (const Size size : far_level_sizes(pack.layout, pack.tile_size, pack.tile_levels))
+      map.far_levels.push_back(
+          quantised(test::noise(size.width, size.height, map.channels, 3, map.depth), map.depth));
+  write_pack(pack, temporary / "a");
+  const Pack again = read_pack(temporary / "a");
+  CHECK(again.full_chain);
+  for (std::size_t m = 0; m < pack.maps.size(); ++m) {
+    CHECK(again.maps[m].levels == pack.maps[m].levels);
+    CHECK(again.maps[m].far_levels == pack.maps[m].far_levels);
+  }
+  const std::size_t levels = pack.maps[0].levels.size() + pack.maps[0].far_levels.size();
+  CHECK(std::filesystem::exists(temporary / "a" / ("color_" + std::to_string(levels - 1) + ".png")));
+  write_pack(test::noise_pack(), temporary / "a"); // and go when a pack without them takes its place
+  CHECK_FALSE(std::filesystem::exists(temporary / "a" / ("color_" + std::to_string(levels - 1) + ".png")));
 }
 
 TEST_CASE("an index map is stored in 8 bits, and in 16 for more than 256 tiles", "[pack]") {

@@ -35,7 +35,8 @@ struct Places {
       tile_y.push_back(static_cast<std::int32_t>(drawn("ty") * 400) - 200);
       x.push_back(fraction("x", pack.tile_size.width));
       y.push_back(fraction("y", pack.tile_size.height));
-      level.push_back(static_cast<float>(i % 3 == 0 ? fine : fine + drawn("part")));
+      const double at = i % 3 == 0 ? fine : fine + drawn("part");
+      level.push_back(static_cast<float>(pack.full_chain ? std::min(at, pack.tile_levels - 1.0) : at));
     }
   }
   SampleBatch batch() const {

@@ -36,6 +36,7 @@ class CLevels {
 public:
   CLevels(const PackedMap& map, int layers) {
     for (const Image& level : map.levels) images.push_back(to_linear(level, map.encoding));
+    for (const Image& level : map.far_levels) images.push_back(to_linear(level, map.encoding));
     for (const Image& image : images)
       levels.push_back({image.row(0).data(), image.width(), image.height() / layers});
     texture = {levels.data(), static_cast<int>(levels.size()), map.channels};
@@ -222,7 +223,8 @@ Differences differences(const Pack& pack, WrapMode border, int count) {
     const float fx = fraction(drawn("fx")), fy = fraction(drawn("fy"));
     // A mirrored place exactly on a border is taken for the tile before.
     if (border == WrapMode::mirror && (fx == 0 || fy == 0)) continue;
-    const int whole = static_cast<int>(drawn("level") % static_cast<std::uint64_t>(pack.tile_levels));
+    const std::size_t levels = pack.maps[0].levels.size() + pack.maps[0].far_levels.size();
+    const int whole = static_cast<int>(drawn("level") % levels);
     std::array<double, 3> expected{};
     const auto worst = [&](const std::array<float, 3>& found) {
       double difference = 0;
@@ -244,6 +246,11 @@ Differences differences(const Pack& pack, WrapMode border, int count) {
     reference.sample(at_x, at_y, level, Filter::trilinear, expected);
     largest.level = std::max(largest.level, worst(compiled.at(Mode::level, x, y, fx, fy, level)));
     if (truths.empty()) continue;
+    if (whole >= pack.tile_levels) { // far levels are the texture's own
+      if (!pack.corner_pack)
+        largest.exact = std::max(largest.exact, worst(compiled.at(Mode::exact, x, y, fx, fy, level)));
+      continue;
+    }
     const Size tile = level_size(pack.tile_size, whole);
     for (std::size_t c = 0; c < 3; ++c)
       expected[c] =

@@ -50,6 +50,14 @@ inline std::vector<NamedPack> shader_packs() {
   add("array with borders", corners(2), bordered, MappingKind::even, {6, 5});
   add("corner pack", edges(2, 2), with_corners, MappingKind::mix, {6, 5});
   add("corner pack, index", edges(2, 2), with_corners, MappingKind::index, {6, 5});
+  PackingOptions torus_down = torus, array_down = array, bordered_down = bordered,
+                 corners_down = with_corners;
+  for (PackingOptions* options : {&torus_down, &array_down, &bordered_down, &corners_down})
+    options->full_mips = true;
+  add("full chain, 3 corner colors", corners(3), torus_down, MappingKind::even, {64, 64});
+  add("full chain, array", edges(2, 2), array_down, MappingKind::mix, {64, 5});
+  add("full chain, array with borders", corners(2), bordered_down, MappingKind::even, {6, 5});
+  add("full chain, corner pack", edges(3, 2), corners_down, MappingKind::mix, {6, 5});
   for (NamedPack& named : packs) // so that blends are seen
     if (named.pack.corner_pack) named.pack.corner_pack->width = 3;
   const TileSet few = framed_set(sequential_edge_set(2, 2), tile, 5);
@@ -58,6 +66,8 @@ inline std::vector<NamedPack> shader_packs() {
   };
   fill("rotated", turned);
   fill("rotated with gutters", guttered);
+  guttered.full_mips = true;
+  fill("full chain, rotated", guttered);
   return packs;
 }
 

@@ -219,6 +219,11 @@ std::string get_wraps(const BakeOptions& o) {
   return o.wraps == WrapChoice::found ? "" : std::string(name_of(o.wraps));
 }
 
+// Recorded only where it is on, as in packs of before there was such a chain.
+std::string get_full_mips(const BakeOptions& o) {
+  return o.full_mips ? "true" : "";
+}
+
 // Recorded only where it is off: a sample that is straight makes the same pack either way.
 std::string get_straighten(const BakeOptions& o) {
   return o.straighten ? "" : "false";
@@ -235,6 +240,8 @@ std::vector<BakeField> make_fields() {
   variants.get = get_variants;
   FieldValue wraps = choice(at(&O::wraps));
   wraps.get = get_wraps;
+  FieldValue full_mips = flag(at(&O::full_mips));
+  full_mips.get = get_full_mips;
   FieldValue straighten = flag(at(&O::straighten));
   straighten.get = get_straighten;
   return {
@@ -289,6 +296,10 @@ std::vector<BakeField> make_fields() {
        "add a pack of the surroundings of tile corners (edge coloring)"},
       {"mips", packing, choice(at(&O::mips, &MipOptions::mode)),
        "what is done to the border texels of coarser levels; none: level 0 only"},
+      {"full-mips", packing, full_mips,
+       "levels go on past one texel a tile, down to the mean of the pack: for engines that can't be told "
+       "which "
+       "level is the last"},
       {"jump-weight", packing, whole_number(0, 1000, at(&O::mips, &MipOptions::jump_weight)),
        "mips least-squares: cost of a jump across a border against that of an error, 0 to 1000"},
       {"roughness-from-normals", material, flag(at(&O::mips, &MipOptions::roughness_from_normals)),

@@ -8,6 +8,7 @@
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/index_fill.h"
+#include "tilepack/mip/far_levels.h"
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/pack/stored_format_for.h"
 #include "tilepack/tileset/border_agreement.h"
@@ -123,6 +124,20 @@ void convert(TileMap& map, const StoredFormat& to) {
   map.depth = to.depth;
 }
 
+// Levels past those of tiles, for maps that have those: `maps` are the set's in the pack or in its corner pack.
+void add_far_levels(std::vector<PackedMap>& maps, const TileSet& set, const Layout& layout,
+                    bool roughness_from_normals, int tile_levels) {
+  const std::vector<Size> sizes = far_level_sizes(layout, set.tile_size, tile_levels);
+  const auto last_of = [&](std::size_t m) { return PlacedLevel{maps[m].levels.back(), set.maps[m]}; };
+  std::optional<PlacedLevel> normals;
+  for (std::size_t m = 0; m < maps.size() && roughness_from_normals && !normals; ++m)
+    if (value_space(maps[m]).has_vectors()) normals.emplace(last_of(m));
+  const int layers = layout.kind == LayoutKind::array ? layout.rows : 1;
+  for (std::size_t m = 0; m < maps.size(); ++m)
+    for (Image& level : far_levels(last_of(m), layers, sizes, normals ? &*normals : nullptr))
+      maps[m].far_levels.push_back(quantised(std::move(level), maps[m].depth));
+}
+
 } // namespace
 
 PackingPlan planned_packing(const PackingOptions& options, const TileColors& tiles, Size tile_size) {
@@ -133,6 +148,9 @@ PackingPlan planned_packing(const PackingOptions& options, const TileColors& til
                     name_of(*options.depth)));
   check_layout_options(options, tile_size);
   check_layout_fits(options, tiles);
+  if (options.full_mips && options.mips.mode == MipMode::none)
+    throw Error(ErrorKind::usage, field("full-mips"),
+                fmt::format("goes on where levels end, and {} makes none", field("mips", "none")));
   if (options.corner_pack && (coloring_of(tiles) == Coloring::corner || !is_complete_set(tiles)))
     throw Error(ErrorKind::usage, field("corner-pack"),
                 "is for complete edge-colored sets; corner-colored tiles need none");
@@ -191,6 +209,16 @@ Pack packed(TileSet set, const PackingPlan& plan, std::uint64_t seed, const Prog
     }
     pack.maps.push_back(std::move(map));
     if (pack.corner_pack) pack.corner_pack->maps.push_back(std::move(corners));
+  }
+  if (!options.full_mips) return pack;
+  pack.full_chain = true;
+  const bool rough = options.mips.roughness_from_normals;
+  add_far_levels(pack.maps, set, pack.layout, rough, pack.tile_levels);
+  if (pack.corner_pack) {
+    Layout grid;
+    grid.columns = pack.corner_pack->columns;
+    grid.rows = pack.corner_pack->rows;
+    add_far_levels(pack.corner_pack->maps, set, grid, rough, pack.tile_levels);
   }
   return pack;
 }

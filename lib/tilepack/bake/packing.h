@@ -35,6 +35,7 @@ struct PackingOptions {
   ArrayOptions array;
   bool corner_pack = false; ///< edge coloring and a complete set only
   MipOptions mips;
+  bool full_mips = false;             ///< past the levels of tiles on down to one texel (mip/far_levels.h)
   std::optional<MappingKind> mapping; ///< unset: even for corner sets of 2 to 4 colors, else mix
   VirtualSize virtual_size{256, 256};
   std::optional<PackFormat> format; ///< of all maps; unset: what the depth asks for

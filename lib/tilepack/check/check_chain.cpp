@@ -2,6 +2,7 @@
 #include "tilepack/check/structure_checks.h"
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/mip/downsample.h"
+#include "tilepack/mip/far_levels.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/mip/normal_variance.h"
 
@@ -166,14 +167,38 @@ std::vector<Issue> check_map(const Pack& pack, const PackedMap& map) {
   return issues;
 }
 
+// Far levels against the means of the last level of tiles. Roughness takes up what normals lose, if it was told to.
+std::vector<Issue> check_far_levels(const Pack& pack, const PackedMap& map) {
+  std::vector<Issue> issues;
+  if (map.levels.empty() || map.far_levels.empty() || !roughness_channels(map, map.channels).empty())
+    return issues;
+  const int last = static_cast<int>(map.levels.size()) - 1;
+  if (last + 1 != pack.tile_levels || !has_right_size(pack, map.levels.back(), last)) return issues;
+  const TileMap format{map, {Image(1, 1, map.channels)}};
+  const std::vector<Image> expected =
+      far_levels({map.levels.back(), format}, pack.layout.kind == LayoutKind::array ? pack.layout.rows : 1,
+                 far_level_sizes(pack.layout, pack.tile_size, pack.tile_levels));
+  const double range = full_range(map);
+  for (std::size_t i = 0; i < std::min(expected.size(), map.far_levels.size()); ++i) {
+    const Image& stored = map.far_levels[i];
+    if (stored.size() != expected[i].size() || stored.channels() != map.channels) continue;
+    const double rms = rms_difference(expected[i], stored);
+    if (rms > largest_rms * range)
+      issues.push_back({Rule::level_stale, place_name(map, last + 1 + static_cast<int>(i)),
+                        fmt::format("differs from the means of level {} by {:.3g}/255 of the range (RMS)",
+                                    last, rms / range * 255),
+                        fmt::format("at most {:.2g}/255, what rounding explains", largest_rms * 255)});
+  }
+  return issues;
+}
+
 } // namespace
 
 std::vector<Issue> check_chain(const Pack& pack) {
   std::vector<Issue> issues;
-  for (const PackedMap& map : pack.maps) {
-    std::vector<Issue> found = check_map(pack, map);
-    issues.insert(issues.end(), found.begin(), found.end());
-  }
+  for (const PackedMap& map : pack.maps)
+    for (std::vector<Issue> found : {check_map(pack, map), check_far_levels(pack, map)})
+      issues.insert(issues.end(), found.begin(), found.end());
   return issues;
 }
 

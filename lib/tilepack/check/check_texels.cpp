@@ -1,6 +1,7 @@
 #include "tilepack/check/level_view.h"
 #include "tilepack/check/structure_checks.h"
 #include "tilepack/check/tile_border.h"
+#include "tilepack/mip/far_levels.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/mip/shared_border.h"
 
@@ -226,6 +227,12 @@ std::vector<Issue> check_levels(const Pack& pack) {
       issues.push_back({Rule::levels_missing, fmt::format("map {}", map.name),
                         fmt::format("{} levels", levels),
                         fmt::format("{} levels, as mips.tile_levels says", pack.tile_levels)});
+    const std::size_t far =
+        pack.full_chain ? far_level_sizes(pack.layout, pack.tile_size, pack.tile_levels).size() : 0;
+    if (map.far_levels.size() != far)
+      issues.push_back({Rule::levels_missing, fmt::format("map {}", map.name),
+                        fmt::format("{} levels past those of tiles", map.far_levels.size()),
+                        fmt::format("{}, as mips.full_chain says", far)});
     for (int level = 0; level < levels; ++level) {
       const Image& image = map.levels[static_cast<std::size_t>(level)];
       if (image.empty() || has_right_size(pack, image, std::min(level, 30))) continue;

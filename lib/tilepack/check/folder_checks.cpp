@@ -152,9 +152,12 @@ void fill(Pack& pack, const std::vector<AnnouncedFile>& files, std::vector<Loade
   for (std::size_t i = 0; i < files.size(); ++i) {
     const AnnouncedFile& file = files[i];
     if (std::vector<PackedMap>* maps = maps_for(pack, file)) {
-      std::vector<Image>& levels = (*maps)[static_cast<std::size_t>(file.map)].levels;
-      levels.resize(std::max(levels.size(), static_cast<std::size_t>(file.level) + 1));
-      if (loaded[i].image) levels[static_cast<std::size_t>(file.level)] = std::move(*loaded[i].image);
+      PackedMap& map = (*maps)[static_cast<std::size_t>(file.map)];
+      const bool far = file.level >= pack.tile_levels;
+      std::vector<Image>& levels = far ? map.far_levels : map.levels;
+      const auto level = static_cast<std::size_t>(far ? file.level - pack.tile_levels : file.level);
+      levels.resize(std::max(levels.size(), level + 1));
+      if (loaded[i].image) levels[level] = std::move(*loaded[i].image);
     } else if (file.kind == AnnouncedFile::Kind::index_map && loaded[i].image) {
       pack.mapping.ids = ids_in(loaded[i]);
     }

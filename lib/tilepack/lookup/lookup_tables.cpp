@@ -1,6 +1,7 @@
 #include "tilepack/lookup/lookup_tables.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/mip/far_levels.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +55,10 @@ LookupTables::LookupTables(const Pack& pack, const Mapping& mapping) {
   lookup.layout = layout_words(pack.layout, pack.tile_size);
   lookup.layout_kind = pack.layout.kind;
   lookup.levels = static_cast<std::uint32_t>(pack.tile_levels);
+  lookup.chain_levels = lookup.levels;
+  if (pack.full_chain)
+    lookup.chain_levels +=
+        static_cast<std::uint32_t>(far_level_sizes(pack.layout, pack.tile_size, pack.tile_levels).size());
   lookup.tiles = static_cast<std::uint32_t>(places.size());
   lookup.places = places.data();
   lookup.colors = colors.data();

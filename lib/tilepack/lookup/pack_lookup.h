@@ -38,6 +38,7 @@ struct PackLookup {
   LayoutWords layout;
   LayoutKind layout_kind = LayoutKind::tile_index;
   std::uint32_t levels = 0;              ///< that tiles have: mips.tile_levels, of all maps
+  std::uint32_t chain_levels = 0;        ///< that textures have: with the far levels of a full chain
   std::uint32_t tiles = 0;               ///< 1..65536
   const std::uint32_t* places = nullptr; ///< by tile: column in bits 0..15, row in bits 16..31
   const std::uint32_t* colors = nullptr; ///< by tile: CellColors a, b, c, d in bits 0..7, 8..15, …

@@ -70,6 +70,11 @@ void compare_maps(const std::vector<PackedMap>& a, const std::vector<PackedMap>&
     for (std::size_t level = 0; level < std::min(map.levels.size(), other->levels.size()); ++level)
       result.parts.push_back(compared_part(fmt::format("{}{}, level {}", prefix, map.name, level),
                                            map.levels[level], other->levels[level], range));
+    facts.compare(name + ", far levels", map.far_levels.size(), other->far_levels.size());
+    for (std::size_t level = 0; level < std::min(map.far_levels.size(), other->far_levels.size()); ++level)
+      result.parts.push_back(
+          compared_part(fmt::format("{}{}, level {}", prefix, map.name, map.levels.size() + level),
+                        map.far_levels[level], other->far_levels[level], range));
   }
 }
 

@@ -33,7 +33,8 @@ struct RoundTrip {
 /// One map of a pack: its levels as placed images, finest first, values as stored (rounded to `depth`).
 struct PackedMap : MapFormat {
   int channels = 0;
-  std::vector<Image> levels;
+  std::vector<Image> levels;               ///< of tiles
+  std::vector<Image> far_levels;           ///< past those, of packs with a full chain (mip/far_levels.h)
   std::vector<RoundTrip> round_trips;      ///< rotated layouts: one a filter, in the order of ResampleFilter
   std::optional<ImageContainer> container; ///< unset: the usual one of the depth
 
@@ -83,7 +84,8 @@ struct Pack {
   std::optional<CornerPack> corner_pack;
   MipMode mip_mode = MipMode::edges;
   int guard = 0;
-  int tile_levels = 0; ///< number of levels, level 0 counted
+  int tile_levels = 0;     ///< number of levels of tiles, level 0 counted
+  bool full_chain = false; ///< maps have far levels after those, down to one texel
   std::vector<std::string>
       materials; ///< of a transition: the names of its materials, by corner color; else none
   std::optional<SetFigures> synthesis; ///< of a set made from a sample; nothing here is needed to sample it

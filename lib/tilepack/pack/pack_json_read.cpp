@@ -4,6 +4,7 @@
 #include "tilepack/layout/rotated_lattice.h"
 #include "tilepack/layout/surroundings.h"
 #include "tilepack/mapping/even_pattern.h"
+#include "tilepack/mip/far_levels.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/numeric/wrap.h"
 #include "tilepack/pack/file_name.h"
@@ -180,14 +181,20 @@ struct Textures {
   Layout layout;
   Size tile_size;
   int levels;
+  bool full_chain; // far levels follow
 };
 
 LevelFiles read_levels(const JsonCursor& list, const Textures& textures, std::set<std::string>& used) {
-  const auto count = static_cast<std::size_t>(textures.levels);
-  list.array(count, count);
+  std::vector<Size> sizes;
+  for (int l = 0; l < textures.levels; ++l)
+    sizes.push_back(texture_size(textures.layout, textures.tile_size, l));
+  if (textures.full_chain)
+    for (const Size size : far_level_sizes(textures.layout, textures.tile_size, textures.levels))
+      sizes.push_back(size);
+  list.array(sizes.size(), sizes.size());
   LevelFiles levels;
-  for (int l = 0; l < textures.levels; ++l) {
-    const JsonCursor level = list.item(static_cast<std::size_t>(l));
+  for (std::size_t l = 0; l < sizes.size(); ++l) {
+    const JsonCursor level = list.item(l);
     level.only({"file", "size"});
     const JsonCursor file = level.member("file");
     const std::string name = file.text();
@@ -197,7 +204,10 @@ LevelFiles read_levels(const JsonCursor& list, const Textures& textures, std::se
     if (!used.insert(name).second) file.fail(fmt::format("{} is named twice", file.shown()));
     const JsonCursor size_field = level.member("size");
     const Size size = read_size(size_field, INT32_MAX);
-    const Size needed = texture_size(textures.layout, textures.tile_size, l);
+    const Size needed = sizes[l];
+    if (size != needed && l >= static_cast<std::size_t>(textures.levels))
+      size_field.fail(fmt::format("[{}, {}] is not [{}, {}], half the size of the level before", size.width,
+                                  size.height, needed.width, needed.height));
     if (size != needed)
       size_field.fail(
           fmt::format("[{}, {}] is not [{}, {}], the size of the layout with tiles of {} x {} texels",
@@ -336,7 +346,7 @@ void check_complete(const JsonCursor& list, const TileColors& tiles, const Color
 }
 
 void read_mips(const JsonCursor& value, Pack& pack) {
-  value.only({"filter", "sanitize", "guard", "tile_levels"});
+  value.only({"filter", "sanitize", "guard", "tile_levels", "full_chain"});
   const bool box = value.member("filter").one_of({"none", "box"}) == 1;
   const JsonCursor sanitize = value.member("sanitize");
   const std::size_t mode = sanitize.one_of({"none", "edges", "corners", "least-squares"});
@@ -346,6 +356,9 @@ void read_mips(const JsonCursor& value, Pack& pack) {
   pack.tile_levels =
       value.member("tile_levels")
           .small_integer(1, box ? levels_held(pack.layout, pack.tile_size, level_count(pack.tile_size)) : 1);
+  const auto full = value.find("full_chain");
+  pack.full_chain = full && full->boolean();
+  if (!box && pack.full_chain) full->fail("is true though \"filter\" is \"none\"");
 }
 
 // The corner pack is looked up with the number of a map of the pack, so both hold the same maps.
@@ -368,7 +381,7 @@ CornerPack read_corner_pack(const JsonCursor& value, const Pack& pack, std::vect
   grid.rows = rows;
   const JsonCursor maps = value.member("maps");
   maps.array(pack.maps.size(), pack.maps.size());
-  packed.maps = read_maps(maps, {grid, pack.tile_size, pack.tile_levels}, files, used);
+  packed.maps = read_maps(maps, {grid, pack.tile_size, pack.tile_levels, pack.full_chain}, files, used);
   for (std::size_t m = 0; m < packed.maps.size(); ++m) {
     const PackedMap& here = packed.maps[m];
     const PackedMap& there = pack.maps[m];
@@ -447,8 +460,8 @@ PackDescription parsed_pack_json(std::string_view text, const std::string& file)
   pack.layout = read_layout(root.member("layout"), pack.tiles, pack.tile_size);
   read_mips(root.member("mips"), pack);
   std::set<std::string> used{"pack.json"};
-  pack.maps =
-      read_maps(root.member("maps"), {pack.layout, pack.tile_size, pack.tile_levels}, result.map_files, used);
+  pack.maps = read_maps(root.member("maps"), {pack.layout, pack.tile_size, pack.tile_levels, pack.full_chain},
+                        result.map_files, used);
   pack.mapping = read_mapping(root.member("mapping"), pack.colors, result.index_file, used);
   if (pack.mapping.kind != MappingKind::index || pack.colors.variants > 1)
     check_complete(root.member("tiles"), pack.tiles, pack.colors);

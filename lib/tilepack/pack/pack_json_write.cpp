@@ -146,10 +146,12 @@ JsonValue generator_json(const Generator& generator) {
 JsonValue mips_json(const Pack& pack) {
   const bool filtered = pack.mip_mode != MipMode::none;
   const bool sanitized = filtered && pack.mip_mode != MipMode::box;
-  return {{"filter", filtered ? "box" : "none"},
-          {"sanitize", sanitized ? name_of(pack.mip_mode) : "none"},
-          {"guard", pack.guard},
-          {"tile_levels", pack.tile_levels}};
+  JsonValue json{{"filter", filtered ? "box" : "none"},
+                 {"sanitize", sanitized ? name_of(pack.mip_mode) : "none"},
+                 {"guard", pack.guard},
+                 {"tile_levels", pack.tile_levels}};
+  if (pack.full_chain) json["full_chain"] = true;
+  return json;
 }
 
 JsonValue synthesis_json(const SetFigures& figures) {
@@ -163,6 +165,7 @@ std::vector<MapFiles> named_files(const std::vector<PackedMap>& maps, const std:
   for (const PackedMap& map : maps) {
     std::vector<Size> levels;
     for (const Image& image : map.levels) levels.push_back(image.size());
+    for (const Image& image : map.far_levels) levels.push_back(image.size());
     files.push_back(texture_files(prefix + map.name, levels, map.stored().container));
   }
   return files;
@@ -207,6 +210,7 @@ PackDescription described(const Pack& pack) {
   bare.guard = pack.guard;
   bare.tile_levels = pack.tile_levels;
   bare.materials = pack.materials;
+  bare.full_chain = pack.full_chain;
   bare.synthesis = pack.synthesis;
   result.map_files = named_files(pack.maps, "");
   if (pack.corner_pack) {

@@ -34,14 +34,16 @@ auto naming(const PackFolder& folder, const std::string& name, Work work) {
 }
 
 void plan_reading(std::vector<Load>& loads, std::vector<PackedMap>& maps,
-                  const std::vector<std::vector<TextureFile>>& files, const PackFolder& folder,
-                  int first_level) {
+                  const std::vector<std::vector<TextureFile>>& files, int tile_levels,
+                  const PackFolder& folder, int first_level) {
   for (std::size_t m = 0; m < maps.size(); ++m) {
     PackedMap& map = maps[m];
-    map.levels.resize(static_cast<std::size_t>(levels_in(files[m])));
+    map.levels.resize(static_cast<std::size_t>(tile_levels));
+    map.far_levels.resize(static_cast<std::size_t>(levels_in(files[m]) - tile_levels));
     std::span<Image> left(map.levels);
     int level = 0;
     for (const TextureFile& texture : files[m]) {
+      if (left.empty()) left = map.far_levels;
       const auto count = texture.levels.size();
       level += static_cast<int>(count);
       if (level <= first_level) {
@@ -105,8 +107,9 @@ Pack read_pack(const PackFolder& folder) {
   PackDescription description = folder.description();
   Pack pack = std::move(description.pack);
   std::vector<Load> loads;
-  plan_reading(loads, pack.maps, description.map_files, folder, 0);
-  if (pack.corner_pack) plan_reading(loads, pack.corner_pack->maps, description.corner_files, folder, 0);
+  plan_reading(loads, pack.maps, description.map_files, pack.tile_levels, folder, 0);
+  if (pack.corner_pack)
+    plan_reading(loads, pack.corner_pack->maps, description.corner_files, pack.tile_levels, folder, 0);
   read_index(pack, description.index_file, folder);
   read_textures(loads, folder);
   return pack;
@@ -119,7 +122,7 @@ Pack read_pack_levels(const PackFolder& folder, int map, int first_level) {
   pack.maps = std::vector<PackedMap>{pack.maps.at(at)};
   pack.corner_pack.reset();
   std::vector<Load> loads;
-  plan_reading(loads, pack.maps, {description.map_files[at]}, folder, first_level);
+  plan_reading(loads, pack.maps, {description.map_files[at]}, pack.tile_levels, folder, first_level);
   read_index(pack, description.index_file, folder);
   read_textures(loads, folder);
   return pack;

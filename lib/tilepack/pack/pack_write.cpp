@@ -61,6 +61,7 @@ void plan_writing(std::vector<Task>& tasks, const std::vector<PackedMap>& maps,
     const StoredFormat format = maps[m].stored();
     std::span<const Image> left(maps[m].levels);
     for (const TextureFile& texture : files[m]) {
+      if (left.empty()) left = maps[m].far_levels;
       const auto levels = left.first(texture.levels.size());
       left = left.subspan(levels.size());
       std::size_t values = 0;

@@ -52,7 +52,8 @@ bool is_light(const PackedMap& map) {
 
 std::string levels_json(const PackedMap& map) {
   std::string text;
-  for (const Image& level : map.levels) {
+  for (std::size_t l = 0; l < map.levels.size() + map.far_levels.size(); ++l) {
+    const Image& level = l < map.levels.size() ? map.levels[l] : map.far_levels[l - map.levels.size()];
     const Image shown =
         is_light(map) && map.encoding == Encoding::linear ? from_linear(level, Encoding::srgb) : level;
     std::vector<unsigned char> bytes;
@@ -100,6 +101,7 @@ Pack bare(const Pack& pack) {
   result.layout = pack.layout;
   result.mapping = pack.mapping;
   result.tile_levels = pack.tile_levels;
+  result.full_chain = pack.full_chain;
   for (const PackedMap& map : pack.maps)
     result.maps.emplace_back(map.name, map.role, map.encoding, map.depth, map.channels, std::vector<Image>{});
   if (pack.corner_pack)

@@ -21,8 +21,9 @@ CornerTexels::CornerTexels(const Pack& of_pack, int map, double width, int first
       widest(of_pack.corner_pack->width) {}
 
 double CornerTexels::weight(int level, double fraction_x, double fraction_y) const {
-  const double here = widest / static_cast<double>(1 << level);
-  return corner_weight(fraction_x, fraction_y, texels.tile_size(level), std::min(blend_width, here));
+  const int of_tiles = std::min(level, texels.levels() - 1); // far levels go on as the last
+  const double here = widest / static_cast<double>(1 << of_tiles);
+  return corner_weight(fraction_x, fraction_y, texels.tile_size(of_tiles), std::min(blend_width, here));
 }
 
 // The corner is lattice point (x, y). In the corner pack it is the south-east corner of its cell, so a point

@@ -13,6 +13,7 @@ std::unique_ptr<const Pack> with_one_map(const Pack& pack, int map) {
   result->layout = pack.layout;
   result->mapping = pack.mapping;
   result->tile_levels = pack.tile_levels;
+  result->full_chain = pack.full_chain;
   result->maps = {pack.maps[static_cast<std::size_t>(map)]};
   result->corner_pack = {pack.corner_pack->columns,
                          pack.corner_pack->rows,
@@ -27,7 +28,8 @@ FastCorners::FastCorners(const Pack& of_pack, int map)
     : pack(with_one_map(of_pack, map)), sampler(*pack, 0), corners(*pack, 0, default_corner_width) {}
 
 void FastCorners::blend_in(const SampleBatch& batch, Filter filter, std::span<float* const> out) const {
-  const int levels = static_cast<int>(pack->maps[0].levels.size());
+  const std::size_t far = filter == Filter::nearest ? 0 : pack->maps[0].far_levels.size();
+  const int levels = static_cast<int>(pack->maps[0].levels.size() + far);
   std::array<double, 4> value{};
   const std::span<double> channels(value.data(), static_cast<std::size_t>(sampler.channels()));
   for (std::size_t i = 0; i < batch.count; ++i) {

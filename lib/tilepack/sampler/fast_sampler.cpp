@@ -7,6 +7,7 @@
 #include "tilepack/sampler/address.h"
 #include "tilepack/sampler/fast_borders.h"
 #include "tilepack/sampler/fast_corners.h"
+#include "tilepack/sampler/fast_far.h"
 #include "tilepack/sampler/fast_kernel.h"
 #include "tilepack/sampler/pack_texels.h"
 
@@ -86,6 +87,7 @@ struct FastSampler::State {
   std::optional<LookupTables> lookup;
 
   void take_kernel(std::string_view target);
+  std::optional<FastFar> far_pass;
   std::optional<FastCorners> corner_pass;
 
   void take_texels(const PackedMap& map, Size tile);
@@ -212,6 +214,7 @@ FastSampler::FastSampler(const Pack& pack, int map, std::string_view target)
     state->take_layers(pack, map);
   else
     state->take_texels(own, pack.tile_size);
+  if (!own.far_levels.empty()) state->far_pass.emplace(pack, map);
   if (pack.corner_pack) state->corner_pass.emplace(pack, map);
 }
 
@@ -243,6 +246,7 @@ std::size_t FastSampler::bytes() const {
 void FastSampler::sample(const SampleBatch& batch, Filter filter, Weights weights,
                          std::span<float* const> out) const {
   state->kernel.look_up(state->tables, batch, filter, weights, out.data());
+  if (state->far_pass) state->far_pass->blend_in(state->tables, batch, filter, out);
   if (state->corner_pass) state->corner_pass->blend_in(batch, filter, out);
 }
 
@@ -250,6 +254,7 @@ void FastSampler::sample_exact(const SampleBatch& batch, Filter filter, Weights 
                                std::span<float* const> out) const {
   state->kernel.look_up(state->tables, batch, filter, weights, out.data());
   if (state->lookup) mend_borders(state->tables, batch, filter, weights, out);
+  if (state->far_pass) state->far_pass->blend_in(state->tables, batch, filter, out);
 }
 
 void FastSampler::sample_parallel(const SampleBatch& batch, Filter filter, Weights weights,

@@ -28,13 +28,11 @@ PackTexels::PackTexels(const Pack& of_pack, const std::vector<PackedMap>& maps, 
     : tables(of_pack) {
   map = &map_at(maps, map_index);
   alpha = value_space(*map).has_alpha();
-  decoded.resize(map->levels.size());
+  decoded.resize(static_cast<std::size_t>(chain_levels()));
   if (map->encoding == Encoding::linear) return;
-  const int last = std::min(last_level, levels() - 1);
-  for (int level = std::max(first_level, 0); level <= last; ++level) {
-    const auto l = static_cast<std::size_t>(level);
-    decoded[l] = to_linear(map->levels[l], map->encoding);
-  }
+  const int last = std::min(last_level, chain_levels() - 1);
+  for (int level = std::max(first_level, 0); level <= last; ++level)
+    decoded[static_cast<std::size_t>(level)] = to_linear(image(level), map->encoding);
 }
 
 PackTexels::PackTexels(const Pack& of_pack, int map_index, int first_level, int last_level)
@@ -64,7 +62,8 @@ PackTexels::Place PackTexels::place(std::int64_t cell_x, std::int64_t cell_y) co
 
 const Image& PackTexels::image(int level) const {
   const auto l = static_cast<std::size_t>(level);
-  return decoded[l].empty() ? map->levels[l] : decoded[l];
+  if (!decoded[l].empty()) return decoded[l];
+  return level < levels() ? map->levels[l] : map->far_levels[l - map->levels.size()];
 }
 
 std::span<const float> PackTexels::texel(int level, Place place, int i, int j) const {
@@ -82,6 +81,7 @@ std::span<const float> PackTexels::texel(int level, Place place, int i, int j) c
 
 PackTexels::Taps PackTexels::taps(int level, Place place, double fraction_x, double fraction_y,
                                   Filter filter) const {
+  if (level >= levels()) return far_taps(image(level), place, fraction_x, fraction_y);
   const Size tile = tile_size(level);
   Placement::Vector at;
   if (turned)
@@ -117,6 +117,41 @@ PackTexels::Taps PackTexels::taps(int level, Place place, double fraction_x, dou
   return result;
 }
 
+// At the same point of the texture as in the last level of tiles.
+PackTexels::Taps PackTexels::far_taps(const Image& far, Place place, double fraction_x,
+                                      double fraction_y) const {
+  const int last = levels() - 1;
+  const Size tile = tile_size(last), whole = map->levels.back().size();
+  const int beyond = std::max(border, 0) >> last;
+  const Size cell{tile.width + 2 * beyond, tile.height + 2 * beyond};
+  const int layers = border >= 0 ? whole.height / cell.height : 1;
+  Placement::Vector at;
+  if (turned)
+    at = placements[static_cast<std::size_t>(last)][static_cast<std::size_t>(place.tile)].at(fraction_x,
+                                                                                             fraction_y);
+  else
+    at = {place.column * cell.width + beyond + fraction_x * tile.width,
+          (border >= 0 ? 0 : place.row) * cell.height + beyond + fraction_y * tile.height};
+  const int height = far.height() / layers;
+  const double x = at.x / whole.width * far.width() - 0.5;
+  const double y = at.y / (border >= 0 ? cell.height : whole.height) * height - 0.5;
+  const auto along = [&](double first, int step, int side) {
+    const int i = static_cast<int>(std::floor(first)) + step;
+    return border >= 0 ? std::clamp(i, 0, side - 1) : wrapped(i, side);
+  };
+  const double east = x - std::floor(x), south = y - std::floor(y);
+  Taps result;
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      const double weight = (i == 0 ? 1.0 - east : east) * (j == 0 ? 1.0 - south : south);
+      if (weight != 0.0)
+        result.taps[static_cast<std::size_t>(result.count++)] = {
+            far.texel(along(x, i, far.width()), (border >= 0 ? place.row * height : 0) + along(y, j, height)),
+            weight};
+    }
+  return result;
+}
+
 PackTexels::Taps PackTexels::texel_taps(int level, Place place, int i, int j) const {
   const Size tile = tile_size(level);
   if (turned) return taps(level, place, (i + 0.5) / tile.width, (j + 0.5) / tile.height, Filter::bilinear);
@@ -132,6 +167,10 @@ int PackTexels::channels() const {
 
 int PackTexels::levels() const {
   return static_cast<int>(map->levels.size());
+}
+
+int PackTexels::chain_levels() const {
+  return static_cast<int>(map->levels.size() + map->far_levels.size());
 }
 
 Size PackTexels::tile_size(int level) const {

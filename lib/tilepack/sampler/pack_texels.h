@@ -54,7 +54,7 @@ public:
   };
 
   /// What `filter` (nearest, else bilinear) reads in one level at a point of the tile, given as fractions
-  /// 0 <= x, y < 1 of its sides. Weights add up to 1 and none is 0.
+  /// 0 <= x, y < 1 of its sides. Weights add up to 1 and none is 0. Far levels are read bilinearly.
   Taps taps(int level, Place place, double fraction_x, double fraction_y, Filter filter) const;
 
   /// What stands for texel (i, j) of the tile's own rows, any integers: that texel; in a rotated layout,
@@ -62,13 +62,15 @@ public:
   Taps texel_taps(int level, Place place, int i, int j) const;
 
   int channels() const;
-  int levels() const;                      ///< stored in the pack, whether decoded or not
+  int levels() const;                      ///< of tiles, whether decoded or not
+  int chain_levels() const;                ///< with the far levels of a full chain
   Size tile_size(int level) const;         ///< texels
   bool has_alpha() const { return alpha; } ///< color whose last channel weighs the others
 
 private:
   PackTexels(const Pack& pack, const std::vector<PackedMap>& maps, int map, int first_level, int last_level);
   const Image& image(int level) const;
+  Taps far_taps(const Image& far, Place place, double fraction_x, double fraction_y) const;
 
   const PackedMap* map; // of the pack
   LookupTables tables;

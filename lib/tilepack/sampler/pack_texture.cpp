@@ -72,7 +72,7 @@ void PackTexture::sample(TileCoordinate u, TileCoordinate v, const Footprint& fo
       if (filter == ViewFilter::ewa)
         sampler.sample(x, y, footprint, probe);
       else
-        sampler.sample(x, y, probes.level, Filter::trilinear, probe);
+        sampler.sample(x, y, std::min(probes.level, sampler.levels() - 1.0), Filter::trilinear, probe);
       sums.add(std::span<const double>(probe), (1 - fade) / probes.count, space.has_alpha());
     }
   }

@@ -2,6 +2,7 @@
 
 #include "tilepack/tileset/value_space.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -96,8 +97,8 @@ void blend_levels(const PackTexels& texels, const LevelBlend& levels, std::span<
 void TileReader::sample(const TilePoint& point, const LevelBlend& levels, Filter filter,
                         std::span<double> out) const {
   blend_levels(texels, levels, out, [&](ValueSums& sums, int level, double weight) {
-    const TilePoint at =
-        filter == Filter::nearest ? point : kept_inside(point, edge, texels.tile_size(level));
+    const Size tile = texels.tile_size(std::min(level, texels.levels() - 1)); // far levels: as the last
+    const TilePoint at = filter == Filter::nearest ? point : kept_inside(point, edge, tile);
     with_corners(
         texels, corners, at, level, [&](const PackTexels& from, PackTexels::Place place, double share) {
           add_taps(sums, from.taps(level, place, at.x, at.y, filter), weight * share, texels.has_alpha());
@@ -129,7 +130,8 @@ TilePoint ReferenceSampler::point_at(TileCoordinate x, TileCoordinate y) const {
 
 void ReferenceSampler::sample(TileCoordinate x, TileCoordinate y, double level, Filter filter,
                               std::span<double> out) const {
-  reader().sample(point_at(x, y), level_blend(level, texels.levels(), filter), filter, out);
+  const int levels = filter == Filter::nearest ? texels.levels() : texels.chain_levels();
+  reader().sample(point_at(x, y), level_blend(level, levels, filter), filter, out);
 }
 
 void ReferenceSampler::sample(TileCoordinate x, TileCoordinate y, const Footprint& footprint,

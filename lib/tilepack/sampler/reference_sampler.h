@@ -68,9 +68,10 @@ public:
                    WrapMode border = WrapMode::wrap);
 
   int channels() const { return texels.channels(); }
-  int levels() const { return texels.levels(); }
+  int levels() const { return texels.levels(); } ///< of tiles
 
-  /// The linear value at (x, y). `level` 0 is the finest. `out` has channels() entries.
+  /// The linear value at (x, y). `level` 0 is the finest. `out` has channels() entries. Past the levels of tiles
+  /// bilinear and trilinear lookups read the far levels of packs that have a full chain.
   void sample(TileCoordinate x, TileCoordinate y, double level, Filter filter, std::span<double> out) const;
 
   /// Anisotropic: the mean over the ellipse that a pixel covers, in the two levels next to level_of() it,

@@ -130,7 +130,8 @@ private:
     return s;
   }
 
-  Expression last_level() const { return real(lookup.levels - 1.0); }
+  Expression last_level() const { return real(lookup.levels - 1.0); } // of tiles
+  bool has_far_levels() const { return lookup.chain_levels > lookup.levels; }
 
   void describe_level_of() {
     FunctionWriter f(program, "level_of", ValueType::real,
@@ -201,7 +202,11 @@ private:
     FunctionWriter f(program, "nearest", ValueType::texel,
                      {"The texel that holds a place, at a whole level."});
     const At at = place_parameters(f);
-    const Expression level = f.parameter("level", ValueType::whole);
+    Expression level = f.parameter("level", ValueType::whole);
+    if (has_far_levels()) { // they are filtered or nothing
+      const Expression last = whole(static_cast<std::int32_t>(lookup.levels) - 1);
+      level = f.declare("of_tiles", select(level < last, level, last));
+    }
     const At in = within(f, at);
     const Expression x = f.declare("x", f.call("cell_x", {at.cell_x})),
                      y = f.declare("y", f.call("cell_y", {at.cell_y}));
@@ -287,8 +292,12 @@ private:
     const At in = within(f, at);
     const Expression x = f.declare("x", f.call("cell_x", {at.cell_x})),
                      y = f.declare("y", f.call("cell_y", {at.cell_y}));
-    const Expression width = f.declare("width", size_at(layout.tile_width, level));
-    const Expression height = f.declare("height", size_at(layout.tile_height, level));
+    const auto side = [&](std::uint32_t texels) {
+      if (!has_far_levels()) return size_at(texels, level);
+      return word(texels) >> minimum(to_word(level), word(lookup.levels - 1));
+    };
+    const Expression width = f.declare("width", side(layout.tile_width));
+    const Expression height = f.declare("height", side(layout.tile_height));
     if (features.border != WrapMode::wrap) {
       keep_inside(f, x, in.x, lookup.lattice.width, to_real(width));
       keep_inside(f, y, in.y, lookup.lattice.height, to_real(height));
@@ -299,8 +308,11 @@ private:
     const Expression i = f.declare("i", to_whole(floor(px))), j = f.declare("j", to_whole(floor(py)));
     const Expression ie = f.declare("ie", to_word(i + whole(1))), js = f.declare("js", to_word(j + whole(1)));
     const Expression value = f.declare("value", no_texel());
+    const Expression within_tile = whole(0) <= i && whole(0) <= j && ie < width && js < height;
+    // Far levels are the texture's own.
+    const auto past_tiles = static_cast<std::int32_t>(lookup.levels) - 1;
     f.branch(
-        whole(0) <= i && whole(0) <= j && ie < width && js < height,
+        has_far_levels() ? whole(past_tiles) < level || within_tile : within_tile,
         [&] {
           const TexturePoint p = texture_point(f.declare("place", f.call("place_of", {x, y})), in.x, in.y);
           f.assign(value, fetch(Operation::fetch_level, PackTextureSlot::tiles,
@@ -331,8 +343,8 @@ private:
     FunctionWriter f(program, "exact", ValueType::texel,
                      {"Trilinear, every texel from the tile that it lies in."});
     const At at = place_parameters(f);
-    const Expression level =
-        f.declare("at", minimum(maximum(f.parameter("level", ValueType::real), real(0)), last_level()));
+    const Expression level = f.declare("at", minimum(maximum(f.parameter("level", ValueType::real), real(0)),
+                                                     real(lookup.chain_levels - 1.0)));
     const Expression fine = f.declare("fine", floor(level)), share = f.declare("share", level - fine);
     const auto exact_at = [&](const Expression& of) {
       return f.call("exact_at", {at.cell_x, at.cell_y, at.x, at.y, to_whole(of)});

@@ -118,13 +118,13 @@ std::string maps_text(const Pack& pack) {
 }
 
 // What whoever includes the text has to know.
-std::vector<std::string> usage(const Pack& pack, const ShaderSettings& settings) {
+std::vector<std::string> usage(const Pack& pack, const ShaderSettings& settings, std::uint32_t levels) {
   const bool layered = pack.layout.kind == LayoutKind::array;
   const bool corners = pack.corner_pack.has_value();
   const std::string name = settings.name;
   std::vector<std::string> lines{"Maps: " + maps_text(pack) + "."};
   if (settings.language == ShaderLanguage::c) {
-    lines.push_back(fmt::format("`tiles` holds a map's {} levels in linear light{}{}.", pack.tile_levels,
+    lines.push_back(fmt::format("`tiles` holds a map's {} levels in linear light{}{}.", levels,
                                 layered ? ", of an array its layers one below the other" : "",
                                 corners ? ", `corners` those of the corner pack" : ""));
     lines.push_back(
@@ -135,10 +135,9 @@ std::vector<std::string> usage(const Pack& pack, const ShaderSettings& settings)
     lines.push_back(fmt::format("Each is a texture{} of {} levels, as stored, row 0 first, sRGB ones decoded "
                                 "when read: filtered linearly, "
                                 "also between levels,",
-                                layered ? fmt::format(" array of {} layers", pack.layout.rows) : "",
-                                pack.tile_levels));
-    lines.push_back(fmt::format("{}, its last level {}.", layered ? "clamped to its edge" : "repeating",
-                                pack.tile_levels - 1));
+                                layered ? fmt::format(" array of {} layers", pack.layout.rows) : "", levels));
+    lines.push_back(fmt::format("{}, its last level {}{}.", layered ? "clamped to its edge" : "repeating",
+                                levels - 1, pack.full_chain ? ", the mean" : ""));
     if (settings.language == ShaderLanguage::osl)
       lines.push_back(fmt::format(
           "{0}_shader is a shader, {0}_grad what it calls, by cell, fraction and derivatives.", name));
@@ -183,7 +182,8 @@ std::string shader_text(const Pack& pack, const ShaderSettings& settings, const 
   print.wraps = !print.layers;
   std::string text = comment_of(settings.language, "Made by: " + made_by);
   text += comment_of(settings.language, fmt::format("Content of the pack: {:016x}", content));
-  for (const std::string& line : usage(pack, settings)) text += comment_of(settings.language, line);
+  for (const std::string& line : usage(pack, settings, tables.words().chain_levels))
+    text += comment_of(settings.language, line);
   return text + "\n" + printer_of(settings.language, print)->text(program);
 }
 

@@ -49,8 +49,9 @@ inline constexpr int largest_guard_made = largest_tile_side / guard_share_made; 
 inline constexpr int largest_gutter = largest_tile_side;
 inline constexpr int largest_layer_border = largest_tile_side / 2;
 
-/// Levels of a pack: 4096 halves twelve times.
+/// Levels of a tile: 4096 halves twelve times. Levels of a map with a full chain: 65536 halves sixteen times.
 inline constexpr int most_levels = 13;
+inline constexpr int most_chain_levels = 17;
 
 /// Maps of a pack, channels of one, and letters of a map's name, which is part of file names.
 inline constexpr int most_maps = 64;
