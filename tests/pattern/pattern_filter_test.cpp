@@ -15,19 +15,6 @@ PatternOptions with(PatternFilter filter, int coarse_map = 0, int samples = 24) 
   return options;
 }
 
-/// Tiles that continue each other: their values follow a field that wraps, and differ by noise within.
-std::vector<Image> continuing_tiles(int count, int side) {
-  std::vector<Image> images = noise_patterns(count, {side, side});
-  for (Image& image : images)
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        const int border = std::min({x, y, side - 1 - x, side - 1 - y});
-        const float share = std::min(1.0f, static_cast<float>(border) / static_cast<float>(side / 4));
-        for (float& value : image.texel(x, y)) value = 0.5f + share * (value - 0.5f);
-      }
-  return images;
-}
-
 /// Root mean square of the differences of two textures over places of the scene.
 double apart(const PatternTexture& a, const PatternTexture& b, double width, std::int64_t units,
              int places = 60) {
@@ -63,12 +50,11 @@ Scene dithered_scene(std::int64_t units, int side = 16) {
 
 } // namespace
 
-TEST_CASE("across borders of continuing tiles, filtering is what one great texture would give", "[pattern]") {
-  // Bilinear samples of level 0, all over a pixel, against the levels of the tiles.
+TEST_CASE("across borders of cells, each texel is read from the tile that it lies in", "[pattern]") {
   constexpr int side = 16;
   Scene scene(64, {side, side});
   const NodeId index = scene.random(4);
-  const std::vector<Image> images = continuing_tiles(4, side);
+  const std::vector<Image> images = noise_patterns(4, {side, side});
   const auto source = pattern_source(images);
   scene.add(PatternsTexture{source, scene.grid(), index});
   // Level 0 against texels gathered by hand.

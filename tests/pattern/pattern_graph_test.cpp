@@ -114,6 +114,38 @@ TEST_CASE("transition tiles show where materials meet, and pass through elsewher
   CHECK(std::abs(variants[0] - variants[1]) < 300);
 }
 
+TEST_CASE("a set of several colors a material shows all cells, and corners agree", "[pattern]") {
+  std::vector<Image> tiles; // 2 materials of 2 colors: a texel in each corner says its color
+  for (int code = 0; code < 256; ++code) {
+    Image tile(2, 2, 3);
+    for (int corner = 0; corner < 4; ++corner)
+      tile.texel(corner % 2, corner / 2)[0] = static_cast<float>(code >> (2 * (3 - corner)) & 3) / 4;
+    tiles.push_back(tile);
+  }
+  Scene scene(64);
+  const NodeId material = scene.random(2);
+  const NodeId plain = scene.constant(0.9);
+  TransitionTexture block{material, scene.grid(), {plain, plain}, pattern_source(tiles)};
+  block.colors_of_material = 2;
+  block.plain_from_set = true;
+  scene.add(block);
+  const PatternTexture texture(scene.graph, 0, with(PatternFilter::nearest));
+  const auto color = [&](std::int64_t x, std::int64_t y, double in_x, double in_y) {
+    return std::lround(4 * value_at(texture, {x, in_x}, {y, in_y}, 1.0 / 2)[0]);
+  };
+  int seen[4] = {};
+  for (std::int64_t y = 0; y < 40; ++y)
+    for (std::int64_t x = 0; x < 40; ++x) {
+      const auto nw = color(x, y, 0.25, 0.25);
+      CHECK(nw / 2 == index_at(scene.graph, material, {{x, 0.5}, {y, 0.5}}));
+      CHECK(nw == color(x - 1, y, 0.75, 0.25));
+      CHECK(nw == color(x, y - 1, 0.25, 0.75));
+      CHECK(nw == color(x - 1, y - 1, 0.75, 0.75));
+      ++seen[nw];
+    }
+  for (const int times : seen) CHECK(times > 300);
+}
+
 TEST_CASE("a border on clear ground lies over what is there", "[pattern]") {
   std::vector<Image> tiles;
   for (int code = 0; code < 16; ++code) {

@@ -160,8 +160,9 @@ struct NodeCheck {
     grid(b.grid);
     count("number of textures", static_cast<std::int64_t>(b.textures.size()), 2, 16);
     count("variants", b.variants, 1, 64);
+    count("colors of a material", b.colors_of_material, 1, 8);
     std::int64_t codes = 1;
-    for (int i = 0; i < 4; ++i) codes *= static_cast<std::int64_t>(b.textures.size());
+    for (int i = 0; i < 4; ++i) codes *= static_cast<std::int64_t>(b.textures.size()) * b.colors_of_material;
     const int tiles = b.source->facts().tiles;
     if (b.tiles.empty()) {
       need(tiles >= codes * b.variants,

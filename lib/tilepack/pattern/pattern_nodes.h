@@ -213,6 +213,12 @@ struct TransitionTexture {
   int variants = 1; ///< tiles a code, 1..64: tile = code + variant * m⁴, the variant by hash of the cell
   std::vector<int> tiles = {}; ///< by code + variant * m⁴, the tile in the set; empty: the number itself
   std::uint64_t seed = 0;
+  /// Of sets that have several corner colors a material (lookup/material_lookup.h): how many; corner (i, j) has one of
+  /// those of its material by hash, and codes are of colors, m times as many, so m⁴ above is (m * this)⁴.
+  int colors_of_material = 1;
+  /// Plain cells are shown from the set too, which then goes on over all of the scene without a seam; `textures` are not
+  /// looked at but for their number. (What they are counts for means over many cells.)
+  bool plain_from_set = false;
 };
 
 /// The border of one material as tiles on clear ground (border_code(), 2⁴ tiles a variant; tile 15 isn't read, nor 0),

@@ -98,6 +98,8 @@ void PatternValues::prepare(NodeId node) {
         } else if constexpr (std::is_same_v<Block, TransitionTexture> ||
                              std::is_same_v<Block, BorderTexture>) {
           state.hashes[0] = CellHash(HashKind::mix, grid, b.variants, b.seed);
+          if constexpr (std::is_same_v<Block, TransitionTexture>)
+            state.hashes[1] = CellHash(HashKind::mix, grid, b.colors_of_material, b.seed, 1);
         }
         if (placed) state.constant = state.even = false;
       },

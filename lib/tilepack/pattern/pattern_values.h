@@ -43,6 +43,8 @@ public:
   }
   /// The hash of a node's cells: of its index or number, or of the variants of its tiles.
   const CellHash& hash(NodeId node) const { return states[static_cast<std::size_t>(node)].hashes[0]; }
+  /// Of a transition, the hash of corners: which of its material's colors.
+  const CellHash& corner_hash(NodeId node) const { return states[static_cast<std::size_t>(node)].hashes[1]; }
 
   /// Notes that a node was evaluated.
   void note(NodeId node) const {

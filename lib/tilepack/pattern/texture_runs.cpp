@@ -219,17 +219,30 @@ struct TextureRun {
       std::size_t end = walk.stretch_end(i);
       if (!known(corners.nw) || !known(corners.ne) || !known(corners.sw) || !known(corners.se)) {
         clear_part(i, end);
-      } else if (corners.plain()) {
+      } else if (corners.plain() && !b.plain_from_set) {
         while (end < run.count && corners_at(end) == corners) end = walk.stretch_end(end);
         pass(b.textures[static_cast<std::size_t>(corners.nw)], i, end);
       } else {
         const std::int64_t variant = values().hash(node).index(walk.cell(walk.spot(i)));
-        const std::int64_t code = transition_code(corners, m) + variant * m * m * m * m;
+        const std::int64_t colors = m * b.colors_of_material;
+        const std::int64_t code = transition_code(colors_at(b, corners, walk, walk.spot(i)), colors) +
+                                  variant * colors * colors * colors * colors;
         const std::int64_t tile = b.tiles.empty() ? code : b.tiles[static_cast<std::size_t>(code)];
         patterns.fill(static_cast<std::int32_t>(tile), walk, i, end, out);
       }
       i = end;
     }
+  }
+
+  // The corner colors of a cell whose corners are of these materials.
+  CornerMaterials colors_at(const TransitionTexture& b, const CornerMaterials& materials,
+                            const GridWalk& walk, const GridWalk::Spot& spot) const {
+    if (b.colors_of_material == 1) return materials;
+    const auto color = [&](std::int64_t material, std::int64_t dx, std::int64_t dy) {
+      return material * b.colors_of_material + values().corner_hash(node).index(walk.cell(spot, dx, dy));
+    };
+    return {color(materials.nw, 0, 0), color(materials.ne, 1, 0), color(materials.sw, 0, 1),
+            color(materials.se, 1, 1)};
   }
 
   void operator()(const BorderTexture& b) const {
