@@ -29,7 +29,7 @@ def wgsl(text):
         lines.append(line)
     text = "\n".join(lines)
     return text.replace("h % 400u - 200u", "(h % 400u) - 200u").replace(
-        "kind == 0u ? h : kind == 1u ? near : kind == 2u ? near + 0x80000000u : near + 0x40000000u",
+        "kind == 0u ? h : (kind == 1u ? near : (kind == 2u ? near + 0x80000000u : near + 0x40000000u))",
         "select(select(select(near + 0x40000000u, near + 0x80000000u, kind == 2u), near, kind == 1u), h, kind == 0u)")
 
 

@@ -184,8 +184,12 @@ std::string summary_text(const PackSummary& summary) {
     text += maps_text(summary, pack.corner_pack->maps, description.corner_files);
   }
   text += mapping_text(pack);
-  text += fmt::format("mips      {}, {} level{}, guard {} texels\n", name_of(pack.mip_mode), pack.tile_levels,
-                      pack.tile_levels == 1 ? "" : "s", pack.guard);
+  std::string far;
+  if (pack.full_chain && !description.map_files.empty())
+    far = fmt::format(" of tiles and {} on to the mean",
+                      levels_in(description.map_files.front()) - pack.tile_levels);
+  text += fmt::format("mips      {}, {} level{}{}, guard {} texels\n", name_of(pack.mip_mode),
+                      pack.tile_levels, pack.tile_levels == 1 ? "" : "s", far, pack.guard);
   const auto in_memory = static_cast<double>(bytes_in_memory(pack, description));
   const double whole = bytes_stored_whole(pack);
   text += fmt::format("size      {} in {} files; {} in memory, uncompressed; a texture of the virtual size "
