@@ -14,24 +14,24 @@
 namespace tilepack {
 namespace {
 
-constexpr int side = 96;    // of a picture, pixels
-constexpr int column = 168; // from column to column
-constexpr int row = 136;    // from row to row
-constexpr int margin = 24;
-constexpr double letter = 9;      // height of names
-constexpr int shown_texels = 384; // of a texture, a side
+constexpr int box_side = 96;     // of a picture, pixels
+constexpr int column_step = 168; // from column to column
+constexpr int row_step = 136;    // from row to row
+constexpr int picture_margin = 24;
+constexpr double name_height = 9; // height of names
+constexpr int shown_texels = 384; // of a texture, a box_side
 constexpr Paint ink{0.15, 0.15, 0.2, 1};
 constexpr Paint line_ink{0.45, 0.5, 0.65, 0.8};
 
-struct Place {
+struct BoxPlace {
   int column = 0, row = 0;
-  int x() const { return margin + column * tilepack::column; }
-  int y() const { return margin + row * tilepack::row; }
+  int x() const { return picture_margin + column * column_step; }
+  int y() const { return picture_margin + row * row_step; }
 };
 
 // Columns by how many nodes lie at most between a node and what it is made from alone.
-std::vector<Place> places_of(const SceneFile& scene) {
-  std::vector<Place> places(scene.nodes.size());
+std::vector<BoxPlace> places_of(const SceneFile& scene) {
+  std::vector<BoxPlace> places(scene.nodes.size());
   std::map<int, int> taken;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const auto after = [&](int node) {
@@ -60,28 +60,28 @@ std::array<float, 3> color_of_index(std::int64_t index) {
 
 PatternPlace spot(const PatternGraph& graph, int x, int y) {
   const auto along = [](int at, std::int64_t units) {
-    return normalised({0, (at + 0.5) / side * static_cast<double>(units)});
+    return normalised({0, (at + 0.5) / box_side * static_cast<double>(units)});
   };
   return {along(x, graph.scene.width), along(y, graph.scene.height)};
 }
 
 template <class Color>
-void paint_pixels(Image& into, const Place& at, Color color) {
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
+void paint_pixels(Image& into, const BoxPlace& at, Color color) {
+  for (int y = 0; y < box_side; ++y)
+    for (int x = 0; x < box_side; ++x) {
       const std::array<float, 3> value = color(x, y);
       std::copy(value.begin(), value.end(), into.texel(at.x() + x, at.y() + y).begin());
     }
 }
 
-void paint_texture(Image& into, const Place& at, PatternGraph graph, NodeId node, double time) {
+void paint_texture(Image& into, const BoxPlace& at, PatternGraph graph, NodeId node, double time) {
   graph.output = node;
   PatternOptions options;
   options.time = time;
   const PatternTexture texture(graph, 0, options);
   const auto step_along = [](std::int64_t units, int unit) {
     return std::min(static_cast<double>(units), static_cast<double>(shown_texels) / unit) /
-           side; // units a pixel
+           box_side; // units a pixel
   };
   const double step_u = step_along(graph.scene.width, graph.unit.width);
   const double step_v = step_along(graph.scene.height, graph.unit.height);
@@ -105,27 +105,27 @@ void paint_texture(Image& into, const Place& at, PatternGraph graph, NodeId node
   });
 }
 
-void paint_number(Image& into, const Place& at, const PatternGraph& graph, NodeId node, double time) {
+void paint_number(Image& into, const BoxPlace& at, const PatternGraph& graph, NodeId node, double time) {
   std::vector<double> values;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) values.push_back(number_at(graph, node, spot(graph, x, y), time));
+  for (int y = 0; y < box_side; ++y)
+    for (int x = 0; x < box_side; ++x) values.push_back(number_at(graph, node, spot(graph, x, y), time));
   const double low = *std::min_element(values.begin(), values.end());
   const double high = *std::max_element(values.begin(), values.end());
   const double range = high > low ? high - low : 1;
   paint_pixels(into, at, [&](int x, int y) {
-    const auto grey = static_cast<float>((values[static_cast<std::size_t>(y * side + x)] - low) / range);
+    const auto grey = static_cast<float>((values[static_cast<std::size_t>(y * box_side + x)] - low) / range);
     return std::array<float, 3>{grey, grey, grey};
   });
 }
 
-void paint_grid(Image& into, const Place& at, const SceneNode& node) {
+void paint_grid(Image& into, const BoxPlace& at, const SceneNode& node) {
   // As many cells as can be told apart.
   const SceneValue* cells = node.find("cells");
   const auto shown = [&](std::size_t axis) {
     return cells == nullptr ? 4 : static_cast<int>(std::min(cells->numbers[axis], 12.0));
   };
   paint_pixels(into, at, [&](int x, int y) {
-    const bool is_dark = (x * shown(0) / side + y * shown(1) / side) % 2 == 0;
+    const bool is_dark = (x * shown(0) / box_side + y * shown(1) / box_side) % 2 == 0;
     return is_dark ? std::array<float, 3>{0.80f, 0.84f, 0.90f} : std::array<float, 3>{0.94f, 0.95f, 0.98f};
   });
 }
@@ -145,19 +145,19 @@ DrawingShape frame_side(double x, double y, double width, double height, const P
 
 VectorDrawing scene_picture(const SceneFile& scene, SceneFiles& files, double time) {
   const SceneGraph made = scene_graph(scene, files, time);
-  const std::vector<Place> places = places_of(scene);
+  const std::vector<BoxPlace> places = places_of(scene);
   int columns = 1, rows = 1;
-  for (const Place& place : places) {
+  for (const BoxPlace& place : places) {
     columns = std::max(columns, place.column + 1);
     rows = std::max(rows, place.row + 1);
   }
   VectorDrawing drawing;
-  drawing.background =
-      Image(2 * margin + columns * column - (column - side), 2 * margin + rows * row - (row - side - 24), 3);
+  drawing.background = Image(2 * picture_margin + columns * column_step - (column_step - box_side),
+                             2 * picture_margin + rows * row_step - (row_step - box_side - 24), 3);
   std::fill(drawing.background.data().begin(), drawing.background.data().end(), 1.0f);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const SceneNode& node = scene.nodes[i];
-    const Place& at = places[i];
+    const BoxPlace& at = places[i];
     const NodeId id = made.node_of[i];
     if (node.gives == SceneKind::grid || node.gives == SceneKind::place)
       paint_grid(drawing.background, at, node);
@@ -175,9 +175,9 @@ VectorDrawing scene_picture(const SceneFile& scene, SceneFiles& files, double ti
       paint_texture(drawing.background, at, made.graph, id, time);
     const auto draw_input = [&](int from) {
       if (from < 0) return;
-      const Place& source = places[static_cast<std::size_t>(from)];
-      drawing.shapes.push_back(
-          line({source.x() + side + 1.0, source.y() + side / 2.0}, {at.x() - 1.0, at.y() + side / 2.0}));
+      const BoxPlace& source = places[static_cast<std::size_t>(from)];
+      drawing.shapes.push_back(line({source.x() + box_side + 1.0, source.y() + box_side / 2.0},
+                                    {at.x() - 1.0, at.y() + box_side / 2.0}));
     };
     for (const auto& [name, value] : node.inputs) {
       draw_input(value.node);
@@ -185,12 +185,12 @@ VectorDrawing scene_picture(const SceneFile& scene, SceneFiles& files, double ti
     }
     const bool is_output = static_cast<int>(i) == scene.output;
     const double wide = is_output ? 3 : 1;
-    for (const double y : {at.y() - wide, static_cast<double>(at.y() + side)})
-      drawing.shapes.push_back(frame_side(at.x() - wide, y, side + 2 * wide, wide, ink));
-    for (const double x : {at.x() - wide, static_cast<double>(at.x() + side)})
-      drawing.shapes.push_back(frame_side(x, at.y(), wide, side, ink));
-    const double height = std::min(letter, letter * 20 / static_cast<double>(node.name.size()));
-    drawing.words.push_back({{at.x() + side / 2.0, at.y() + side + 13.0}, height, node.name, ink});
+    for (const double y : {at.y() - wide, static_cast<double>(at.y() + box_side)})
+      drawing.shapes.push_back(frame_side(at.x() - wide, y, box_side + 2 * wide, wide, ink));
+    for (const double x : {at.x() - wide, static_cast<double>(at.x() + box_side)})
+      drawing.shapes.push_back(frame_side(x, at.y(), wide, box_side, ink));
+    const double height = std::min(name_height, name_height * 20 / static_cast<double>(node.name.size()));
+    drawing.words.push_back({{at.x() + box_side / 2.0, at.y() + box_side + 13.0}, height, node.name, ink});
   }
   return drawing;
 }

@@ -132,9 +132,21 @@ JsonValue definitions() {
       list_of(ranged("number", -scene_limits::most_cells, scene_limits::most_cells), 2, 2);
   return {{"node-name", {{"type", "string"}, {"minLength", 1}, {"maxLength", scene_limits::longest_name}}},
           {"path", {{"type", "string"}, {"minLength", 1}, {"maxLength", scene_limits::longest_path}}},
-          {"rows", list_of(list_of(ranged("integer", 0, scene_limits::most_indices - 1), 1,
-                                   scene_limits::most_written_cells),
-                           1, scene_limits::most_written_cells)},
+          {"outline",
+           {{"type", "object"},
+            {"additionalProperties", false},
+            {"required", JsonValue::array({"material", "points"})},
+            {"properties",
+             {{"material", ranged("integer", 0, 15)},
+              {"points", list_of(point, 3, scene_limits::most_listed)}}}}},
+          {"map",
+           {{"type", "object"},
+            {"additionalProperties", false},
+            {"required", JsonValue::array({"name", "role", "channels"})},
+            {"properties",
+             {{"name", referred("node-name")},
+              {"role", {{"enum", JsonValue(names_of<Role>())}}},
+              {"channels", ranged("integer", 1, 4)}}}}},
           {"sprite",
            {{"type", "object"},
             {"additionalProperties", false},
@@ -153,7 +165,7 @@ JsonValue definitions() {
 } // namespace
 
 std::string scene_schema() {
-  return json_text(
+  return filled_json_text(
       {{"$schema", "http://json-schema.org/draft-07/schema#"},
        {"title", "Scene of `tilepack compose`, version 1"},
        {"description", "A texture as a graph of blocks. Paths are meant from the folder of the scene."},
@@ -168,7 +180,8 @@ std::string scene_schema() {
          {"maps", list_of(referred("map"), 1, scene_limits::most_maps)},
          {"nodes", {{"type", "object"}, {"additionalProperties", referred("node")}}},
          {"output", referred("node-name")}}},
-       {"definitions", definitions()}});
+       {"definitions", definitions()}},
+      240);
 }
 
 } // namespace tilepack
