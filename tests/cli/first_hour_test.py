@@ -82,7 +82,7 @@ class FirstHour(CommandCase):
 
     def test_help_shows_what_is_needed_first(self):
         text = self.run_tilepack("bake", "--help").stdout
-        self.assertIn("Usage: tilepack bake SAMPLE -o DIR [OPTIONS]", text)
+        self.assertIn("Usage: tilepack bake SAMPLE... -o DIR [OPTIONS]", text)
         self.assertIn("-o,--output DIR (required)", text)
         headings = re.findall(r"^([A-Z][\w ]+):$", text, re.MULTILINE)
         self.assertEqual(headings[:2], ["Positionals", "Most used"])
