@@ -103,6 +103,12 @@ std::string bake_report_text(const PackDescription& made, const std::string& fol
                     "up to {:.1f} texels; {} leaves "
                     "them as they are\n",
                     "sample", facts->straightened, spelled(field("no-straighten"), FieldSpelling::option));
+  if (facts && facts->tones_chosen)
+    text += fmt::format("  {:<9} {}; {} leaves it as it is\n", "sample",
+                        facts->levelled
+                            ? "its courses made alike in tone, so that any of them can go on in any other"
+                            : "flattened, for its tones lie in lines that tiles would cut off",
+                        spelled(field("flatten", "0"), FieldSpelling::option));
   return facts ? text + verdict_text(*facts) : text;
 }
 

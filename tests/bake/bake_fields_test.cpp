@@ -91,7 +91,8 @@ TEST_CASE("every field takes its values, gives them back and refuses others", "[
 
 TEST_CASE("choices are listed where one is refused", "[pack]") {
   CHECK(fault("coloring", "edges") == "--coloring: 'edges' is not allowed; it must be edge|corner");
-  CHECK(fault("flatten", "150") == "--flatten: '150' is not allowed; it must be a whole number of 0 to 100");
+  CHECK(fault("flatten", "150") ==
+        "--flatten: '150' is not allowed; it must be a whole number of 0 to 100, or auto");
   CHECK(fault("effort", "10") == "--effort: '10' is not allowed; it must be a whole number of 0 to 9");
 }
 
@@ -172,6 +173,7 @@ TEST_CASE("colors are of corners unless something asks for edges") {
   CHECK(bake_options({}).layout == LayoutKind::de_bruijn);
   BakeOptions usual;
   usual.fit_tile_size = true;
+  usual.fit_flatten = true;
   CHECK(recorded_options(usual) == recorded_options(bake_options({})));
   for (const auto& [field, value] : {std::pair{"colors", "3"}, {"layout", "array"}, {"corner-pack", "false"}})
     CHECK(coloring(field, value) == Coloring::corner);

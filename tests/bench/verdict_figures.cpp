@@ -1,10 +1,10 @@
 // The figures on which the verdict of a bake rests, beside the limits of report/verdict_thresholds.h and the
 // verdict itself, for samples to be looked at:
 //
-//   bench_verdict_figures [--tile-size N] [--effort N] SAMPLE.png…
+//   bench_verdict_figures [--tile-size N|auto] [--effort N] SAMPLE.png…
 //
-// Sets are baked as `tilepack bake` does by default, of square tiles of 128 texels at effort 0, as those that
-// the limits were set by.
+// Sets are baked as `tilepack bake` does by default, of square tiles of 128 texels at effort 0 unless told otherwise.
+// With auto, sizes and tones follow the sample, as they do in bakes that are told nothing.
 
 #include "tilepack/bake/bake.h"
 #include "tilepack/image/image_file.h"
@@ -54,7 +54,9 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--tile-size" && i + 1 < argc) {
-      const int side = std::stoi(argv[++i]);
+      const std::string size = argv[++i];
+      options.fit_tile_size = options.fit_flatten = size == "auto";
+      const int side = options.fit_tile_size ? 128 : std::stoi(size);
       options.synth.tile_size = {side, side};
     } else if (word == "--effort" && i + 1 < argc) {
       options.synth.effort = std::stoi(argv[++i]);

@@ -44,7 +44,7 @@ class BakeReport(CommandCase):
         page = self.page()
         document = xml.dom.minidom.parseString(page.replace("<!doctype html>", "").encode())
         images = [i.getAttribute("src") for i in document.getElementsByTagName("img")]
-        self.assertEqual(len(images), 5)
+        self.assertEqual(len(images), 6)
         for source in images:
             self.assertTrue(source.startswith("data:image/png;base64,iVBOR"), source[:40])
         self.assertNotRegex(page, r"<script|https?:|file:|<link|url\(")

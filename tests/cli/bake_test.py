@@ -77,9 +77,12 @@ class Bake(CommandCase):
 
     def test_flattening_is_an_option_like_others(self):
         self.bake(output="plain")
-        self.bake("--flatten", 0, output="none")
-        self.assertEqual(self.contents("plain"), self.contents("none"))
+        self.bake("--flatten", "auto", output="auto")
+        self.assertEqual(self.contents("plain"), self.contents("auto"))
         self.assertNotIn("flatten", self.pack("plain")["generator"]["options"])
+        self.bake("--flatten", 0, output="none")
+        self.assertEqual(self.contents("plain")["color_0.png"], self.contents("none")["color_0.png"])
+        self.assertEqual(self.pack("none")["generator"]["options"]["flatten"], "0")
         self.bake("--flatten", 100, "--jobs", 1, output="one")
         self.bake("--flatten", 100, "--jobs", 4, output="four")
         self.assertEqual(self.contents("one"), self.contents("four"))

@@ -31,7 +31,7 @@ class OptionValues(CommandCase):
             self.refuses(command, "--jobs", (*NO_NUMBERS, "-1", "1025", "1.5", "010"),
                          "a whole number of 0 to 1024 (0: as many as the machine has)")
         for command, option, lowest, highest, note in (
-                (bake, "--flatten", 0, 100, ""), (bake, "--effort", 0, 9, ""), (bake, "--jump-weight", 0, 1000, ""),
+                (bake, "--flatten", 0, 100, ", or auto"), (bake, "--effort", 0, 9, ""), (bake, "--jump-weight", 0, 1000, ""),
                 (inspect, "--tiles", 1, 64, ""), (inspect, "--level", 0, 30, ""), (inspect, "--worst", 0, 1000, ""),
                 (validate, "--lookups", 16, 1000000, ""), (bench, "--lookups", 16, 1000000, ""),
                 (bench, "--rounds", 1, 1000, ""), (render, "--level", 0, 30, ""),

@@ -247,3 +247,38 @@ TEST_CASE("threads do not change what is flattened", "[flatten]") {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   CHECK(flattened(map, 0.7, tile).image == many);
 }
+
+TEST_CASE("courses are made alike in tone, each by itself, and joints stay", "[flatten]") {
+  // Boards of 16 texels, the last cut off, each of a tone of its own that drifts along it; a dark joint of 2 texels.
+  const int period = 16;
+  const Image boards = painted(96, 88, 3, [&](int x, int y, int c) {
+    const double tone = 0.3 + 0.08 * ((y / period * 7) % 5) + 0.05 * c + 0.001 * x;
+    return (y % period < 2 ? 0.1 : 1.0) * tone * ((x * 5 + y * 3) % 7 == 0 ? 0.9 : 1.0);
+  });
+  const SampleMap flat = flattened(map_of(Role::color, Depth::f32, boards), 1.0, {96, 32}, {},
+                                   EvenCourses{CourseAxis::y, period, 0.0});
+  const auto mean_of = [](const Image& image, int from, int to, int x0, int x1) {
+    double sum = 0;
+    for (int y = from; y < to; ++y)
+      for (int x = x0; x < x1; ++x) sum += static_cast<double>(image.texel(x, y)[0]);
+    return sum / ((to - from) * (x1 - x0));
+  };
+  const double before = mean_of(boards, 4, 14, 24, 72), after = mean_of(flat.image, 4, 14, 24, 72);
+  CHECK(std::abs(mean_of(boards, 20, 30, 24, 72) / before - 1) > 0.2);
+  for (int board = 1; board < 5; ++board)
+    CHECK(mean_of(flat.image, board * period + 4, board * period + 14, 24, 72) ==
+          Approx(after).epsilon(0.02));
+  CHECK(mean_of(flat.image, 82, 88, 24, 72) == Approx(after).epsilon(0.03)); // what is left of the last
+  CHECK(mean_of(flat.image, 16, 18, 24, 72) == Approx(0.1 * after).epsilon(0.2));
+  CHECK(spread_of(flat.image).mean == Approx(spread_of(boards).mean).epsilon(0.01));
+
+  // The same along the other axis.
+  const auto turned = [](const Image& image) {
+    return painted(image.height(), image.width(), 3, [&](int x, int y, int c) {
+      return static_cast<double>(image.texel(y, x)[static_cast<std::size_t>(c)]);
+    });
+  };
+  const SampleMap other = flattened(map_of(Role::color, Depth::f32, turned(boards)), 1.0, {32, 96}, {},
+                                    EvenCourses{CourseAxis::x, period, 0.0});
+  CHECK(largest_difference(turned(other.image), flat.image) < 1e-5);
+}

@@ -376,7 +376,7 @@ TEST_CASE("the page holds verdict, pictures and figures, and only them", "[bake_
   std::size_t pictures = 0;
   for (std::size_t at = 0; (at = page.find("src=\"data:image/png;base64,", at)) != std::string::npos; ++at)
     ++pictures;
-  CHECK(pictures == 5);
+  CHECK(pictures == 6);
   for (const BakeRemark& remark : bake_verdict(story.facts).remarks)
     CHECK(page.find(remark.text.substr(0, 20)) != std::string::npos);
   CHECK(page == bake_page(story, made, samples));
@@ -397,4 +397,46 @@ TEST_CASE("the verdict on a transition is that of its materials and of the borde
   facts.materials[1].report.figures.cut_mean = 100;
   CHECK(bake_verdict(facts).grade == Grade::poor);
   CHECK(says(facts, Grade::poor, "wall: Across cuts"));
+}
+
+TEST_CASE("tones that end in lines are told", "[bake_verdict]") {
+  BakeFacts facts = good_facts();
+  facts.nature.shading = 0.03;
+  CHECK(says(facts, Grade::fair, "5.0 % of the sample's variance"));
+  facts.report.tones.looked = true; // and none is found
+  CHECK(says(facts, Grade::good, "5.0 % of the sample's variance"));
+  CHECK(bake_verdict(facts).grade == Grade::good);
+  facts.nature.shading = 0;
+  facts.report.tones.share = 0.2;
+  CHECK(says(facts, Grade::fair, "Along 20 % of the length of borders a tone ends in a straight line"));
+  CHECK(says(facts, Grade::fair, "--flatten 100"));
+  facts.report.tones.share = 0.5;
+  CHECK(says(facts, Grade::poor, "it looks pieced together"));
+  facts.flatten = 100;
+  CHECK_FALSE(says(facts, Grade::poor, "--flatten"));
+}
+
+TEST_CASE("the worst places are framed on the tiles and shown beside what they are like", "[bake_page]") {
+  const std::vector<SampleMap> samples{
+      {"color", Role::color, Encoding::srgb, Depth::u8, test::noise(64, 64, 3, 3)}};
+  const BakedPack made = small_bake(samples, "corner");
+  const std::vector<WorstPlace> places = worst_places(made, 4);
+  REQUIRE_FALSE(places.empty());
+  CHECK(places.size() <= 4);
+  for (const WorstPlace& place : places) {
+    CHECK(place.area.x >= 0);
+    CHECK(place.area.x + place.area.width <= 16);
+    CHECK(place.like.x + place.area.width <= 64);
+    CHECK(place.like.y + place.area.height <= 64);
+  }
+  const Image sample = samples[0].image;
+  const VectorDrawing drawing = worst_places_picture(sample, made.sources, places);
+  CHECK(drawing.numbers.size() == places.size());
+  const VectorDrawing plain = cut_picture(sample, made.sample.features, made.sources, made.report);
+  const VectorDrawing marked =
+      cut_picture(sample, made.sample.features, made.sources, made.report, 64, places);
+  CHECK(marked.numbers.size() == plain.numbers.size() + places.size());
+  CHECK(marked.background != plain.background);
+  CHECK(bake_page({"s.png", bake_facts(made, samples), {}}, made, samples).find("The worst places") !=
+        std::string::npos);
 }

@@ -50,10 +50,12 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   check_fit(prepared.used(samples)[0], synth.tile_size);
   BakedPack result;
   result.synth = synth;
-  result.flatten = options.flatten;
   result.size_chosen = options.fit_tile_size;
-  if (options.flatten > 0) report(progress, "flattening", 0.0);
+  if (options.flatten > 0 || options.fit_flatten) report(progress, "flattening", 0.0);
   finish_sample(prepared, samples, options, synth.tile_size);
+  result.flatten = prepared.tones.flatten;
+  result.flatten_chosen = options.fit_flatten;
+  result.levelled = prepared.tones.courses.has_value();
   result.wrap = prepared.wrap;
   result.straightened = prepared.straightened;
   result.prepared = std::move(prepared.maps);

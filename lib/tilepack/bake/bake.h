@@ -29,18 +29,21 @@ struct BakedMaterial {
   SetReport report;        ///< of its tiles, shown whole
   SampleWrap wrap;         ///< along which axes the sample was continued by itself
   double straightened = 0; ///< texels, the furthest that a course was moved
+  int flatten = 0;         ///< percent, as used
   Size size;               ///< of the sample, before it was continued
 };
 
 /// A pack and how it came about, for reports.
 struct BakedPack {
   Pack pack;
-  SampleAnalysis sample;    ///< as used: after straightening and flattening
-  SourceMap sources;        ///< where the pack's tiles come from, by the pack's ids
-  SetReport report;         ///< of these sources
-  SynthOptions synth;       ///< as used: tile_size is the fitted one
-  int flatten = 0;          ///< as in the options
-  bool size_chosen = false; ///< synth.tile_size was found to suit the sample
+  SampleAnalysis sample;       ///< as used: after straightening and flattening
+  SourceMap sources;           ///< where the pack's tiles come from, by the pack's ids
+  SetReport report;            ///< of these sources
+  SynthOptions synth;          ///< as used: tile_size is the fitted one
+  int flatten = 0;             ///< percent, as used: as in the options, or as tone_choice() has it
+  bool flatten_chosen = false; ///< it follows the sample
+  bool levelled = false;       ///< flattening went course by course, each of them by itself
+  bool size_chosen = false;    ///< synth.tile_size was found to suit the sample
 
   SampleWrap wrap; ///< along which axes the sample was continued by itself
 

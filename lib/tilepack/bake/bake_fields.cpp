@@ -171,9 +171,17 @@ std::string get_virtual_size(const BakeOptions& o) {
   return extent_text(o.virtual_size.width, o.virtual_size.height);
 }
 
-// Not recorded where nothing was done.
+// Not recorded where it was left to the sample.
 std::string get_flatten(const BakeOptions& o) {
-  return o.flatten > 0 ? fmt::format("{}", o.flatten) : "";
+  return o.fit_flatten ? "" : fmt::format("{}", o.flatten);
+}
+
+void set_flatten(BakeOptions& o, const std::string& text) {
+  o.fit_flatten = text == "auto";
+  if (o.fit_flatten) return;
+  std::int64_t percent = 0;
+  if (!parse_whole(text, 0, 100, percent)) refuse_value(text, "a whole number of 0 to 100, or auto");
+  o.flatten = static_cast<int>(percent);
 }
 
 void set_normal_y(BakeOptions& o, const std::string& text) {
@@ -233,8 +241,6 @@ std::vector<BakeField> make_fields() {
   using O = BakeOptions;
   using enum FieldScope;
   using Type = BakeFieldType;
-  FieldValue flatten = whole_number(0, 100, at(&O::flatten));
-  flatten.get = get_flatten;
   FieldValue variants = whole_number(
       1, limits::most_variants, [](auto& o) -> auto& { return o.synth.colors.variants; });
   variants.get = get_variants;
@@ -250,8 +256,10 @@ std::vector<BakeField> make_fields() {
            "side of a tile in texels, {} to {}; auto: about a quarter of the sample's side, so that the "
            "tiles show most of it, in whole periods where it repeats",
            limits::smallest_tile_side_made, limits::largest_tile_side)},
-      {"flatten", tiles, flatten,
-       "percent of slow shading (uneven light, a tone that drifts) taken out of color and height, 0 to 100"},
+      {"flatten", tiles, read_by(Type::extent, "N|auto", set_flatten, get_flatten),
+       "percent of slow shading (uneven light, a tone that drifts) taken out of color and height, 0 to 100; "
+       "auto: "
+       "boards are made alike in tone, and wood is flattened, where tiles would cut their tones off"},
       {"wraps", tiles, wraps,
        "whether the sample was made to repeat, so that tiles may show what lies across its borders; auto: "
        "found out "
@@ -378,6 +386,7 @@ BakeOptions bake_options(std::span<const BakeSetting> settings) {
     options.synth.coloring = asks_for_edge_colors(settings) ? Coloring::edge : Coloring::corner;
   follow_coloring(options);
   options.fit_tile_size = true; // unless a size is set
+  options.fit_flatten = true;   // likewise
   for (const BakeField& field : bake_fields())
     if (const BakeSetting* setting = setting_of(settings, field.name)) {
       try {

@@ -32,7 +32,7 @@ inline constexpr auto enum_names<WrapChoice> = std::array{
 /// Everything that decides a pack besides its sample. Field by field the options of `tilepack bake` and the
 /// keys of a preset: see bake/bake_fields.h, which holds their names, ranges and help.
 /// The defaults are those of `tilepack bake`, 2 corner colors in a de Bruijn layout, but for the size of tiles,
-/// which there follows the sample (bake_options of no setting sets fit_tile_size). Edge colors take three
+/// which there follows the sample, and flattening (bake_options of no setting sets fit_tile_size and fit_flatten). Edge colors take three
 /// fields together, synth.coloring, synth.colors and layout (tile_index for a complete set).
 struct BakeOptions : PackingOptions {
   BakeOptions() {
@@ -49,6 +49,7 @@ struct BakeOptions : PackingOptions {
   SetKind set = SetKind::complete;
   WrapChoice wraps = WrapChoice::found;
   int flatten = 0; ///< percent of slow shading taken out of the sample, 0..100 (exemplar/flatten.h)
+  bool fit_flatten = false; ///< it follows the sample (bake/tone_choice.h) in place of `flatten`
 };
 
 } // namespace tilepack

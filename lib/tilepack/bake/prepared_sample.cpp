@@ -41,13 +41,13 @@ void check_values(const SampleMap& map, Depth stored) {
 
 // Values can leave the range that is stored: four times as bright is too much for some half.
 std::vector<SampleMap> flattened_maps(std::span<const SampleMap> samples, const BakeOptions& options,
-                                      Size tile) {
+                                      const ToneChoice& tones, Size tile) {
   // Rounded once, to what is stored. Of f16 later, for what is too large for it is refused and not clamped.
   std::optional<Depth> depth = options.depth;
   if (depth == Depth::f16) depth = Depth::f32;
   std::vector<SampleMap> maps;
   for (const SampleMap& map : samples) {
-    maps.push_back(flattened(map, options.flatten / 100.0, tile, depth));
+    maps.push_back(flattened(map, tones.flatten / 100.0, tile, depth, tones.courses));
     check_values(maps.back(), options.depth.value_or(map.depth));
   }
   return maps;
@@ -188,9 +188,13 @@ void finish_sample(PreparedSample& sample, std::span<const SampleMap> given, con
     sample.maps = continued(samples, {sample.size.width + (sample.wrap.x ? tile.width : 0),
                                       sample.size.height + (sample.wrap.y ? tile.height : 0)});
   }
-  if (options.flatten > 0) {
-    sample.maps = flattened_maps(sample.used(given), options, tile);
-    if (sample.straightened == 0) sample.periods.reset(); // those of a straightened sample are exact
+  if (options.fit_flatten && !sample.periods) sample.periods = detect_periods(sample.used(given));
+  sample.tones = options.fit_flatten ? tone_choice(sample.used(given), *sample.periods, tile)
+                                     : ToneChoice{options.flatten, {}};
+  if (sample.tones.flatten > 0) {
+    sample.maps = flattened_maps(sample.used(given), options, sample.tones, tile);
+    if (sample.straightened == 0 && !sample.tones.courses)
+      sample.periods.reset(); // those of a straightened sample are exact
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/bake/bake_options.h"
+#include "tilepack/bake/tone_choice.h"
 #include "tilepack/exemplar/period.h"
 #include "tilepack/exemplar/sample_wrap.h"
 #include "tilepack/tileset/material_map.h"
@@ -19,6 +20,7 @@ struct PreparedSample {
   double straightened = 0;            ///< texels, the furthest that a course was moved; 0: none was
   Size size;                          ///< texels, before it is continued
   int side = 0;                       ///< of the square tile that suits the sample; 0: it was not asked for
+  ToneChoice tones;                   ///< how it was flattened
 
   std::span<const SampleMap> used(std::span<const SampleMap> given) const {
     return maps.empty() ? given : std::span<const SampleMap>(maps);

@@ -120,6 +120,7 @@ BakedPack baked_transition(MaterialList materials, const BakeOptions& options, c
   const PackingPlan plan = planned_packing(options, wanted, tile); // before the long stage
   for (std::size_t m = 0; m < materials.size(); ++m) check_fit(prepared[m].used(materials[m].maps)[0], tile);
   result.flatten = options.flatten;
+  result.flatten_chosen = options.fit_flatten;
   result.size_chosen = options.fit_tile_size;
 
   std::vector<std::span<const SampleMap>> used;
@@ -129,6 +130,7 @@ BakedPack baked_transition(MaterialList materials, const BakeOptions& options, c
     material.name = materials[m].name;
     material.wrap = prepared[m].wrap;
     material.straightened = prepared[m].straightened;
+    material.flatten = prepared[m].tones.flatten;
     material.size = prepared[m].size;
     used.push_back(prepared[m].used(materials[m].maps));
     material.sample = analysed(used.back(), prepared[m].periods);

@@ -17,6 +17,9 @@ constexpr int flattened_channels = 4;
 constexpr double most_gain = 4.0;
 constexpr double least_weight = 1e-6; // of a mean: less is what rounding left
 constexpr double largest_half = 65504.0;
+constexpr int course_bands =
+    4; // parts across a course whose tones are taken out apart: paint peels in the middle of a board
+constexpr int course_reach = 6; // of a tile's side: knots and gaps stay, and patches as long as a tile don't
 
 using Means = std::array<double, flattened_channels>;
 
@@ -181,23 +184,19 @@ void smooth_columns(Image& values, int reach) {
   });
 }
 
-// The box is the product of one along rows and one along columns.
-void smooth(Image& values, int reach) {
+// Along one axis; a box is the product of one along rows and one along columns.
+void smooth(Image& values, CourseAxis axis, int reach) {
+  if (axis == CourseAxis::y) return smooth_columns(values, reach);
   switch (values.channels()) {
   case 1:
-    smooth_rows<1>(values, reach);
-    break;
+    return smooth_rows<1>(values, reach);
   case 2:
-    smooth_rows<2>(values, reach);
-    break;
+    return smooth_rows<2>(values, reach);
   case 3:
-    smooth_rows<3>(values, reach);
-    break;
+    return smooth_rows<3>(values, reach);
   default:
-    smooth_rows<4>(values, reach);
-    break;
+    return smooth_rows<4>(values, reach);
   }
-  smooth_columns(values, reach);
 }
 
 // What is known of a channel: its mean, and what takes that place so that the mean stays.
@@ -255,17 +254,117 @@ float stored(double value, Depth depth) {
   return quantised(static_cast<float>(value), depth);
 }
 
+// What is slow course by course: a mean over part of the way across it, over what all courses show on average there, so that
+// a groove in one place of each is no tone.
+class CourseMeans {
+public:
+  CourseMeans(const EvenCourses& even_courses, Size size)
+      : courses(even_courses), along_y(even_courses.axis == CourseAxis::y),
+        length(along_y ? size.height : size.width), side(along_y ? size.width : size.height) {
+    for (int i = 0; i < length; ++i) {
+      const double place = (i + 0.5 - courses.joint) / courses.period;
+      course_of.push_back(static_cast<int>(std::floor(place)));
+      phase_of.push_back(static_cast<int>((place - std::floor(place)) * phases()));
+    }
+  }
+
+  // Of each texel what lies round it across its course, not beyond the joints.
+  void take(Image& values, const Means& whole, bool plus, int channels) const {
+    const std::vector<Means> usual = usual_of_phases(values);
+    const int reach = std::max(1, phases() / course_bands / 2);
+    tbb::parallel_for(0, side, [&](int j) {
+      std::vector<Means> line; // as it was
+      for (int i = 0; i < length; ++i) {
+        const auto texel = values.texel(along_y ? j : i, along_y ? i : j);
+        Means& to = line.emplace_back();
+        for (std::size_t c = 0; c < texel.size(); ++c) to[c] = static_cast<double>(texel[c]);
+      }
+      for (int i = 0; i < length; ++i) {
+        Means sums{}, expected{};
+        double count = 0;
+        for (int k = std::max(0, i - reach); k <= std::min(length - 1, i + reach); ++k) {
+          if (course_of[index(k)] != course_of[index(i)]) continue;
+          count += 1;
+          for (std::size_t c = 0; c < sums.size(); ++c) {
+            sums[c] += line[index(k)][c];
+            expected[c] += usual[index(phase_of[index(k)])][c];
+          }
+        }
+        const auto texel = values.texel(along_y ? j : i, along_y ? i : j);
+        const std::size_t alpha = index(channels);
+        for (std::size_t c = 0; c < texel.size(); ++c)
+          if (c == alpha)
+            texel[c] = static_cast<float>(sums[c] / count);
+          else if (plus)
+            texel[c] = static_cast<float>(whole[c] + (sums[c] - expected[c]) / count);
+          else // times the weight by which local_mean() divides
+            texel[c] = static_cast<float>(whole[c] * (expected[c] > 0 ? sums[c] / expected[c] : 1.0) *
+                                          (texel.size() > alpha ? expected[alpha] / count : 1.0));
+      }
+    });
+  }
+
+private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  int phases() const { return std::max(1, static_cast<int>(std::lround(courses.period))); }
+
+  // What all courses show on average at each place across them.
+  std::vector<Means> usual_of_phases(const Image& values) const {
+    std::vector<Means> lines(index(length));
+    tbb::parallel_for(0, length, [&](int i) {
+      for (int j = 0; j < side; ++j) {
+        const auto texel = values.texel(along_y ? j : i, along_y ? i : j);
+        for (std::size_t c = 0; c < texel.size(); ++c) lines[index(i)][c] += static_cast<double>(texel[c]);
+      }
+    });
+    // Of whole courses: one that is cut off would lend its tone to some places and not to others.
+    const auto is_whole = [&](int course) {
+      return std::count(course_of.begin(), course_of.end(), course) >= phases() - 1;
+    };
+    std::vector<Means> usual(index(phases()));
+    std::vector<int> count(usual.size());
+    for (const bool whole : {true, false}) {
+      const std::vector<int> before = count;
+      for (int i = 0; i < length; ++i) {
+        const std::size_t phase = index(phase_of[index(i)]);
+        if (before[phase] > 0 || (whole && !is_whole(course_of[index(i)]))) continue;
+        ++count[phase];
+        for (std::size_t c = 0; c < usual[phase].size(); ++c) usual[phase][c] += lines[index(i)][c];
+      }
+    }
+    for (std::size_t p = 0; p < usual.size(); ++p)
+      for (double& sum : usual[p]) sum /= std::max(1.0, static_cast<double>(count[p]) * side);
+    return usual;
+  }
+
+  const EvenCourses& courses;
+  bool along_y;
+  int length; // along the axis
+  int side;   // across it
+  std::vector<int> course_of;
+  std::vector<int> phase_of;
+};
+
 } // namespace
 
-SampleMap flattened(SampleMap map, double share, Size tile, std::optional<Depth> depth) {
+SampleMap flattened(SampleMap map, double share, Size tile, std::optional<Depth> depth,
+                    const std::optional<EvenCourses>& courses) {
   if (share <= 0 || (map.role != Role::color && map.role != Role::height)) return map;
   const Image& image = map.image;
   const Reading reading(map);
-  const int side = std::min({tile.width, tile.height, image.width(), image.height()});
-  const int reach = std::max(1, side / 4);
   Image means = weighted_values(image, reading);
   const Means whole = whole_means(means, reading);
-  smooth(means, reach);
+  if (courses) {
+    CourseMeans(*courses, image.size()).take(means, whole, map.role == Role::height, reading.channels);
+    const bool along_y = courses->axis == CourseAxis::y;
+    const int side = along_y ? std::min(tile.width, image.width()) : std::min(tile.height, image.height());
+    smooth(means, along_y ? CourseAxis::x : CourseAxis::y, std::max(1, side / course_reach));
+  } else {
+    const int side = std::min({tile.width, tile.height, image.width(), image.height()});
+    const int reach = std::max(1, side / 4);
+    smooth(means, CourseAxis::x, reach);
+    smooth(means, CourseAxis::y, reach);
+  }
   const Levels levels = levels_of(map, reading, means, whole);
   const Depth kept = depth.value_or(map.depth);
 

@@ -70,6 +70,13 @@ std::string cut_caption(double step, int drawn, int tiles) {
   return text;
 }
 
+std::string worst_kinds(const std::vector<WorstPlace>& worst) {
+  const auto tones = std::count_if(worst.begin(), worst.end(), [](const WorstPlace& p) { return p.tone; });
+  if (tones == 0) return "Cuts are seen there. ";
+  if (tones == static_cast<std::ptrdiff_t>(worst.size())) return "A tone ends in a straight line there. ";
+  return fmt::format("In {} to {} a tone ends in a straight line, in the others cuts are seen. ", 1, tones);
+}
+
 std::string figures_table(const BakeFacts& facts) {
   const SetFigures& f = facts.report.figures;
   std::string out = "<table class=\"words\"><tr><th>figure</th><th>value</th><th>meaning</th></tr>\n";
@@ -88,6 +95,10 @@ std::string figures_table(const BakeFacts& facts) {
   row("step of the sample", fmt::format("{:.2f}", f.sample_step),
       "the same difference between neighbouring texels of the sample: what hides a cut");
   row("copied in pieces", share(f.in_pieces), "texels that lie in no 8 x 8 square copied whole");
+  row("ends of tones", share(facts.report.tones.share),
+      "of the length of borders: straight lines along cuts with more of a step in tone than 19 of 20 places "
+      "of the "
+      "sample have, and a quarter beyond");
   row("coverage", share(f.coverage), "of the sample's 16 x 16 cells, a quarter or more of each, are shown");
   row("fresh", share(f.fresh), "of the tiles' texels are shown by one tile alone");
   row("shown often", share(f.shown_often), "of the tiles' texels are shown by half of all tiles or more");
@@ -203,8 +214,10 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
       made.straightened > 0
           ? fmt::format(", straightened: courses were moved by up to {:.1f} texels", made.straightened)
           : "",
-      made.flatten > 0 ? fmt::format(", flattened by {} %", made.flatten) : "", facts.tiles,
-      facts.tiles == 1 ? "" : "s", tile.width, tile.height);
+      made.levelled      ? ", the tones of its courses made alike"
+      : made.flatten > 0 ? fmt::format(", flattened by {} %", made.flatten)
+                         : "",
+      facts.tiles, facts.tiles == 1 ? "" : "s", tile.width, tile.height);
   page += verdict_box(bake_verdict(facts));
   if (facts.size_chosen)
     page += fmt::format("<p>Tile size: {}</p>\n",
@@ -225,13 +238,23 @@ std::string bake_page(const BakeSummary& story, const BakedPack& made, std::span
   page += "</div>\n";
 
   page += "<h2>Cuts</h2>\n";
-  page += figure(rasterised(cut_picture(sample, made.sample.features, made.sources, report, most_tiles)),
-                 cut_caption(report.figures.sample_step, std::min(facts.tiles, most_tiles), facts.tiles));
+  constexpr int most_places = 9;
+  const std::vector<WorstPlace> worst = worst_places(made, most_places);
+  page +=
+      figure(rasterised(cut_picture(sample, made.sample.features, made.sources, report, most_tiles, worst)),
+             cut_caption(report.figures.sample_step, std::min(facts.tiles, most_tiles), facts.tiles));
+  if (!worst.empty())
+    page += "<h2>The worst places</h2>\n" +
+            figure(rasterised(worst_places_picture(sample, made.sources, worst)),
+                   "Left, three times as large: where the set can be told from its sample most easily, by "
+                   "the numbers "
+                   "on the tiles above. " +
+                       worst_kinds(worst) + "Right: the place of the sample that it is most like.");
 
   page += "<h2>What the tiles show of the sample</h2>\n<div class=\"row\">\n";
   // What a sample that wraps is continued by is its own.
   const Image once =
-      sample.size() == facts.sample ? sample : crop(sample, {0, 0, facts.sample.width, facts.sample.height});
+      made.wrap == SampleWrap{} ? sample : crop(sample, {0, 0, facts.sample.width, facts.sample.height});
   page += figure(use_picture(once, made.sources), use_caption(facts.tiles));
   page += figure(
       rasterised(source_picture(sample, made.sources)),

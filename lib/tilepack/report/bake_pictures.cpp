@@ -154,6 +154,17 @@ void draw_tile_with_cuts(Image& image, Rect area, const Scale& scale, const Imag
     lay(image.texel(area.x + place.second, area.y + place.first), cut_paint(visibility, step));
 }
 
+// A frame round a place of a tile drawn at `tile`, its number in the corner.
+void draw_mark(VectorDrawing& drawing, Rect tile, const Scale& scale, Rect place, int number) {
+  const Paint paint{1.0, 0.2, 0.8, 1};
+  const int x0 = tile.x + scale.pixels(place.x), x1 = tile.x + scale.pixels(place.x + place.width);
+  const int y0 = tile.y + scale.pixels(place.y), y1 = tile.y + scale.pixels(place.y + place.height);
+  for (const Rect& bar : {Rect{x0, y0, x1 - x0, 2}, Rect{x0, y1 - 2, x1 - x0, 2}, Rect{x0, y0, 2, y1 - y0},
+                          Rect{x1 - 2, y0, 2, y1 - y0}})
+    fill(drawing.background, bar, paint);
+  drawing.numbers.push_back({{x0 + 10.0, y0 + 11.0}, 11, number, paint});
+}
+
 // The sample in dark grey, for outlines to stand out.
 Image dimmed(const Image& sample, const Scale& scale) {
   Image image(scale.pixels(sample.width()), scale.pixels(sample.height()), 3);
@@ -247,7 +258,7 @@ Paint use_paint(int shown, int tiles) {
 }
 
 VectorDrawing cut_picture(const Image& sample, const FeatureImage& features, const SourceMap& sources,
-                          const SetReport& report, int most_tiles) {
+                          const SetReport& report, int most_tiles, const std::vector<WorstPlace>& marked) {
   const std::vector<int> ids = tiles_to_draw(report, most_tiles);
   const int count = static_cast<int>(ids.size());
   int columns = 1;
@@ -266,6 +277,8 @@ VectorDrawing cut_picture(const Image& sample, const FeatureImage& features, con
                         report.figures.sample_step);
     draw_colors(drawing.background, sources.tiles, id, area);
     drawing.numbers.push_back({{area.x + wide / 2.0, area.y - 15.0}, 7, id, {0.1, 0.1, 0.1, 1}});
+    for (std::size_t m = 0; m < marked.size(); ++m)
+      if (marked[m].tile == id) draw_mark(drawing, area, scale, marked[m].area, static_cast<int>(m) + 1);
   }
   return drawing;
 }

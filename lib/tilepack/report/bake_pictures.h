@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/report/vector_drawing.h"
+#include "tilepack/report/worst_places.h"
 #include "tilepack/synth/set_report.h"
 
 #include <vector>
@@ -12,9 +13,10 @@ namespace tilepack {
 /// The tiles side by side, greyed, with a band in the color of each edge (or a square in that of each corner)
 /// outside, their ids above, and their cuts: dark green where they cost nothing, yellow where they differ as
 /// much as neighbouring texels of the sample do, red from three times that on. At most `most_tiles`, then
-/// those with the dearest cuts.
+/// those with the dearest cuts. `marked`: places that are framed, with their numbers from 1.
 VectorDrawing cut_picture(const Image& sample, const FeatureImage& features, const SourceMap& sources,
-                          const SetReport& report, int most_tiles = 64);
+                          const SetReport& report, int most_tiles = 64,
+                          const std::vector<WorstPlace>& marked = {});
 
 /// The sample, colored by how many tiles show each texel; what no tile shows is dark.
 Image use_picture(const Image& sample, const SourceMap& sources);

@@ -180,11 +180,14 @@ bool has_shading(const SampleTraits& nature) {
 
 void judge_shading(const BakeFacts& facts, Remarks& remarks) {
   const double drift = facts.nature.drift;
-  const Grade grade = drift > limit::drift_poor ? Grade::poor : Grade::fair;
+  // What is slow in the sample need not be seen in its tiles.
+  const bool seen = !facts.report.tones.looked || facts.report.tones.share > limit::tone_breaks_fair ||
+                    drift > limit::drift_fair;
+  const Grade grade = drift > limit::drift_poor ? Grade::poor : seen ? Grade::fair : Grade::good;
   const std::string found =
       fmt::format("{:.1f} % of the sample's variance lies between areas of a tile's size: brightness or hue "
-                  "changes on a larger scale than tiles, which shows as a patchwork of tones.",
-                  percent(drift));
+                  "changes on a larger scale than tiles, which {} as a patchwork of tones.",
+                  percent(drift), seen ? "shows" : "may show");
   if (facts.flatten < 100 && facts.flat_drift < limit::flatten_helps * drift)
     add(remarks, grade, "shading",
         fmt::format("{} Bake with {}, which leaves {:.1f} %, or with a larger {}.", found,
@@ -316,6 +319,26 @@ void judge_landmark(const BakeFacts& facts, Remarks& remarks) {
       Cure{"seed", ""});
 }
 
+// What a cut parts may differ little from texel to texel and be of another tone.
+void judge_tones(const BakeFacts& facts, Remarks& remarks) {
+  const double share = facts.report.tones.share;
+  if (share <= limit::tone_breaks_fair) return;
+  const std::string found = fmt::format("Along {:.0f} % of the length of borders a tone ends in a straight "
+                                        "line where the sample has no such step: "
+                                        "it looks pieced together.",
+                                        percent(share));
+  const Grade grade = share > limit::tone_breaks_poor ? Grade::poor : Grade::fair;
+  if (facts.flatten < 100)
+    add(remarks, grade, "tones-end",
+        fmt::format("{} Try {}, which takes tones out, or another {}.", found, field("flatten", "100"),
+                    field("seed")),
+        Cure{"flatten", "100"});
+  else
+    add(remarks, grade, "tones-end",
+        fmt::format("{} Try another {}, or a larger {}.", found, field("seed"), field("tile-size")),
+        Cure{"seed", ""});
+}
+
 } // namespace
 
 std::string tile_size_value(Size size) {
@@ -340,7 +363,8 @@ std::vector<JudgedFigure> judged_figures(const BakeFacts& facts) {
           {"shown often", f.shown_often, limit::shown_often_fair, {}},
           {"histogram", f.histogram_distance, limit::histogram_fair, limit::histogram_poor},
           {"mark", mark.deviation, limit::landmark_deviation_fair, limit::landmark_deviation_poor},
-          {"mark shown", mark.shown, limit::landmark_shown_fair, limit::landmark_shown_poor}};
+          {"mark shown", mark.shown, limit::landmark_shown_fair, limit::landmark_shown_poor},
+          {"tone breaks", facts.report.tones.share, limit::tone_breaks_fair, limit::tone_breaks_poor}};
 }
 
 namespace {
@@ -352,7 +376,8 @@ BakeFacts material_facts(const BakedPack& made, const BakedMaterial& material) {
   facts.nature = sample_traits(material.sample.features, material.sample.periods, made.synth.tile_size);
   facts.synth = made.synth;
   facts.synth.colors.corner = 1 + made.synth.colors.corner / static_cast<int>(made.materials.size());
-  facts.flatten = made.flatten;
+  facts.flatten = material.flatten;
+  facts.tones_chosen = made.flatten_chosen && material.flatten > 0;
   facts.flat_drift = facts.nature.drift; // what flattening would leave is not found out
   facts.sample = material.size;
   facts.tiles = combinations(facts.synth.colors) * facts.synth.colors.variants;
@@ -376,7 +401,9 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
                   tile_count(made.pack.tiles),
                   {},
                   made.size_chosen,
-                  made.straightened};
+                  made.straightened,
+                  made.flatten_chosen && made.flatten > 0,
+                  made.levelled};
   if (!made.materials.empty()) {
     for (const BakedMaterial& material : made.materials)
       facts.materials.push_back(material_facts(made, material));
@@ -397,10 +424,10 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
 
 std::span<const std::string_view> remark_codes() {
   static constexpr std::string_view codes[] = {
-      "plain",          "sample-small", "shading",      "writing",        "periods-held",
-      "periods-broken", "no-cuts",      "cuts-hidden",  "cuts-seen",      "varied",
-      "few-parts",      "shown-often",  "border-round", "border-through", "borders-hidden",
-      "borders-seen",   "one-tile",     "landmark",     "values-differ",  "fireflies"};
+      "plain",         "sample-small",   "shading",        "writing",      "periods-held", "periods-broken",
+      "no-cuts",       "cuts-hidden",    "cuts-seen",      "varied",       "few-parts",    "shown-often",
+      "border-round",  "border-through", "borders-hidden", "borders-seen", "one-tile",     "landmark",
+      "values-differ", "fireflies",      "tones-end"};
   return codes;
 }
 
@@ -481,6 +508,7 @@ BakeVerdict bake_verdict(const BakeFacts& facts) {
   judge_periods(facts, verdict.remarks);
   judge_cuts(facts, verdict.remarks);
   judge_borders(facts, verdict.remarks);
+  judge_tones(facts, verdict.remarks);
   if (!pattern) judge_variety(facts, verdict.remarks);
   if (!pattern) judge_landmark(facts, verdict.remarks);
   if (!facts.fireflies.empty())

@@ -29,6 +29,8 @@ struct BakeFacts {
   std::string fireflies = {}; ///< how many of the sample and where, as listed() has it; empty: none
   bool size_chosen = false;   ///< synth.tile_size was found to suit the sample
   double straightened = 0;    ///< texels, the furthest that a course of the sample was moved; 0: none was
+  bool tones_chosen = false;  ///< flatten, more than 0, was found to suit the sample
+  bool levelled = false;      ///< flattening went course by course, each by itself
 
   std::string material =
       {}; ///< these are the facts of a material of a transition, as a set by itself; else empty

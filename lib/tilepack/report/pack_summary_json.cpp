@@ -232,6 +232,7 @@ std::string made_json(const PackDescription& made, const std::string& folder, co
   json["files"].push_back("pack.json");
   if (facts) {
     if (facts->straightened > 0) json["straightened"] = facts->straightened;
+    if (facts->tones_chosen) json["flattened"] = facts->levelled ? "courses" : "all";
     json["synthesis"] =
         facts->materials.empty() ? synthesis_json(*facts) : figures_json(facts->report.figures);
     if (!facts->materials.empty()) json["transition"] = transition_json(*facts);

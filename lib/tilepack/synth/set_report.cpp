@@ -304,6 +304,7 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources, S
       [&] {
         f.border_mean = rounded(mean_across_borders(image, sources));
         f.sample_step = rounded(step_of_sample(image));
+        report.tones = tone_breaks(image, sources);
       },
       [&] {
         f.histogram_distance = rounded(distance_of(sample, analysed.statistics, uses));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/exemplar/sample_analysis.h"
+#include "tilepack/synth/set_faults.h"
 #include "tilepack/tileset/set_figures.h"
 #include "tilepack/tileset/source_map.h"
 
@@ -21,6 +22,7 @@ struct SetReport {
   SetFigures figures;
   std::vector<TileFigures> tiles; ///< by id
   Landmark landmark;              ///< deviation 0 if nothing stands out and is shown
+  ToneBreaks tones;
 };
 
 /// `sample`: as synthesis saw it. `repeat`: where that shows itself again from this width and height on, so that
