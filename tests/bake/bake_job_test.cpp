@@ -153,6 +153,7 @@ TEST_CASE("the canonical text changes with all that reaches the bytes of a pack"
                                                   {"border", "2"},
                                                   {"corner-pack", "true"},
                                                   {"mips", "box"},
+                                                  {"full-mips", "true"},
                                                   {"jump-weight", "7"},
                                                   {"mapping", "index"},
                                                   {"virtual-size", "9"},

@@ -69,6 +69,6 @@ TEST_CASE("fields of packing are those that drawn tiles have use for") {
   std::vector<std::string> names;
   for (const BakeField& field : packing_fields()) names.push_back(field.name);
   CHECK(names == std::vector<std::string>{"seed", "layout", "scheme", "gutter", "power-of-two", "turn-filter",
-                                          "border", "corner-pack", "mips", "jump-weight", "mapping",
-                                          "virtual-size", "image-format", "depth"});
+                                          "border", "corner-pack", "mips", "full-mips", "jump-weight",
+                                          "mapping", "virtual-size", "image-format", "depth"});
 }

@@ -35,7 +35,7 @@ std::vector<SceneReport::Node> scene_report_nodes(const SceneFile& scene, const 
                                                   const std::vector<bool>& used);
 
 std::string scene_report_text(const SceneReport& report);
-/// Held to lib/tilepack/scene/compose.schema.json by a test. Ends in a newline.
+/// Ends in a newline.
 std::string scene_report_json(const SceneReport& report);
 
 } // namespace tilepack
