@@ -54,7 +54,7 @@ const std::map<std::string, Values> values_of_fields{
     {"seed", {{"0", "9007199254740991"}, {"-1", "9007199254740992", "18446744073709551616", "0x10"}}},
     {"layout", {{"tile-index", "de-bruijn", "rotated", "array"}, {"debruijn", ""}}},
     {"corner-pack", {{"true", "false"}, {"yes", "1", ""}}},
-    {"full-mips", {{"true", "false"}, {"1", "yes"}}},
+    {"full-mips", {{"true"}, {"1", "yes"}}}, // false is not recorded,
     {"mips", {{"none", "box", "edges", "corners", "least-squares"}, {"least_squares", "edge"}}},
     {"jump-weight", {{"0", "1000"}, {"-1", "1001", "0.5"}}},
     {"roughness-from-normals", {{"true", "false"}, {"on", "0"}}},

@@ -237,5 +237,32 @@ class SmallScene(CommandCase):
         self.assertNotEqual(self.contents()["s.png"], before)
 
 
+class Transitions(CommandCase):
+    def test_tiles_of_a_transition_follow_a_map_of_materials(self):
+        side, tile, cells = 48, 16, 8
+        for name, least in (("dark.png", 10), ("bright.png", 150)):
+            rows = [[least + (x * 37 + y * 61 + x * y * 13) % 90 for x in range(side)] for y in range(side)]
+            write_png(self.path(name), rows, 1)
+        write_png(self.path("land.png"), [[int(x >= cells // 2) for x in range(cells)] for _ in range(cells)], 1)
+        for colors in ("2", "4"):
+            with self.subTest(colors=colors):
+                self.run_tilepack("bake", "--transition", "dark.png", "bright.png", "-o", "t" + colors, "--tile-size", str(tile), "--effort", "0", "--colors",
+                                  colors, "--flatten", "0")
+                self.write_json("s.json", {"format": "tilepack-scene", "version": 1, "size": [cells * tile] * 2, "nodes": {
+                    "land": {"block": "areas-map", "map": "land.png"}, "cells": {"block": "tile-map", "cells": [cells, cells]},
+                    "join": {"block": "transition-tiles", "grid": "cells", "material": "land", "pack": "t" + colors}}, "output": "join"})
+                self.run_tilepack("compose", "s.json", "-o", "s.png", "--rect", f"0,0,{cells * tile},{cells * tile}")
+                rows, channels, _ = read_png(self.path("s.png"))
+                value = lambda x, y: rows[y][x * channels]
+                plain = [(x, y) for y in range(cells) for x in range(cells // 2 - 1)]
+                for x, y in plain: # corners of one material: its texels alone
+                    for dy in range(tile):
+                        for dx in range(tile):
+                            self.assertLess(value(x * tile + dx, y * tile + dy), 101)
+                            self.assertGreater(value((x + cells // 2) * tile + dx, y * tile + dy), 149)
+                shown = {tuple(value(x * tile + dx, y * tile + dy) for dy in range(tile) for dx in range(tile)) for x, y in plain}
+                self.assertGreater(len(shown), 2, "variants, or colors of a material, are not all used")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <variant>
 
 namespace tilepack {
@@ -91,21 +92,30 @@ std::vector<int> SceneBuilder::tiles_by_corners(const SceneNode& node, int mater
   return chosen;
 }
 
+int SceneBuilder::variants_of(const SceneNode& node) const {
+  const SceneValue* given = node.find("pack");
+  if (node.find("variants") != nullptr || given == nullptr) return static_cast<int>(node.number("variants"));
+  return files->pack(given->texts.front(), scene->place(node, "pack")).pack.colors.variants;
+}
+
 // All tiles of a pack whose corner colors are materials, those of one material all round among them, so that all join.
+// Of a pack that names its materials, each may have several colors, which corners take by hash.
 PatternBlock SceneBuilder::corner_tiles(const SceneNode& node) {
   const SceneValue* given = node.find("pack");
   if (given == nullptr)
     fail(SceneFault::field, node, "",
          "needs \"textures\", one a material, where it has pictures and no pack");
   const auto& pack = files->pack(given->texts.front(), scene->place(node, "pack")).pack;
-  const int materials = pack.colors.corner;
-  if (materials < 2)
+  const int colors = pack.colors.corner;
+  if (colors < 2)
     fail(SceneFault::file_kind, node, "pack", "has no two corner colors; they must be the materials");
-  const int variants = static_cast<int>(node.number("variants"));
-  const std::vector<int> tiles = tiles_by_corners(node, materials, variants);
+  const auto names = static_cast<int>(std::set(pack.materials.begin(), pack.materials.end()).size());
+  const int materials = names > 0 ? names : colors;
+  const int variants = variants_of(node);
+  const std::vector<int> tiles = tiles_by_corners(node, colors, variants);
   check_choice(node, "material", materials, "materials");
   MaterialIndex choice;
-  const auto codes = static_cast<std::size_t>(std::pow(materials, 4));
+  const auto codes = static_cast<std::size_t>(std::pow(colors, 4));
   for (std::size_t code = 0; code < codes; ++code) {
     std::vector<int>& some = choice.table.materials.emplace_back();
     for (std::size_t i = 0; i < static_cast<std::size_t>(variants); ++i)
@@ -114,8 +124,19 @@ PatternBlock SceneBuilder::corner_tiles(const SceneNode& node) {
   PatternsTexture texture;
   texture.source = patterns_input(node);
   texture.grid = grid_input(node, "grid");
-  const NodeId material = index_input(node, "material");
-  choice.material = add(node.name + ".corners", CornerIndex{material, texture.grid, materials});
+  NodeId color = index_input(node, "material");
+  if (const int each = colors / materials; each > 1) {
+    MaterialIndex of_material;
+    for (int m = 0; m < materials; ++m) {
+      std::vector<int>& some = of_material.table.materials.emplace_back();
+      for (int i = 0; i < each; ++i) some.push_back(m * each + i);
+    }
+    of_material.material = color;
+    of_material.index =
+        add(node.name + ".choice", RandomIndex{texture.grid, each, seed_input(node), 1, HashKind::mix});
+    color = add(node.name + ".color", std::move(of_material));
+  }
+  choice.material = add(node.name + ".corners", CornerIndex{color, texture.grid, colors});
   choice.index =
       add(node.name + ".variant", RandomIndex{texture.grid, variants, seed_input(node), 0, HashKind::mix});
   texture.index = add(node.name + ".tile", std::move(choice));
@@ -131,7 +152,7 @@ PatternBlock SceneBuilder::transition_texture(const SceneNode& node) {
     fail(SceneFault::field, node, "textures",
          fmt::format("names {}; transitions are between 2 to 16 materials", materials));
   texture.source = patterns_input(node);
-  texture.variants = static_cast<int>(node.number("variants"));
+  texture.variants = variants_of(node);
   texture.tiles = tiles_by_corners(node, materials, texture.variants);
   const double wanted = std::pow(materials, 4) * texture.variants;
   if (texture.tiles.empty() && wanted > texture.source->facts().tiles)
@@ -148,7 +169,7 @@ PatternBlock SceneBuilder::transition_texture(const SceneNode& node) {
 PatternBlock SceneBuilder::border_texture(const SceneNode& node) {
   BorderTexture texture;
   texture.source = patterns_input(node);
-  texture.variants = static_cast<int>(node.number("variants"));
+  texture.variants = variants_of(node);
   if (16 * texture.variants > texture.source->facts().tiles)
     fail(SceneFault::index, node, node.find("patterns") != nullptr ? "patterns" : "pack",
          fmt::format("has {} tiles; a border at 4 corners and {} variants need {}",

@@ -80,6 +80,7 @@ private:
   PatternBlock pixel_index(int node);
   PatternBlock reference_texture(const SceneNode& node);
   PatternBlock corner_tiles(const SceneNode& node);
+  int variants_of(const SceneNode& node) const; // as given, or as many as the pack has
   PatternBlock transition_texture(const SceneNode& node);
   PatternBlock border_texture(const SceneNode& node);
   PatternBlock blend_texture(const SceneNode& node);
