@@ -9,7 +9,7 @@ SOURCE = os.environ["TILEPACK_SOURCE"]
 TILEPACK = os.environ["TILEPACK"]
 
 # From low to high: a room of lib/tilepack/ includes only itself and those before it.
-ROOMS = ("error numeric json image tileset exemplar match seam synth layout mip mapping pack lookup sampler scanline pattern shader "
+ROOMS = ("error numeric json image tileset exemplar match seam synth transition layout mip mapping pack lookup sampler scanline pattern shader "
          "bake scene batch check measure bench report").split()
 CODE = (".h", ".cpp", ".cpp.in", ".py", ".sh")
 

@@ -5,7 +5,7 @@
 #include "tilepack/exemplar/sample_wrap.h"
 #include "tilepack/synth/set_report.h"
 #include "tilepack/synth/synthesize.h"
-#include "tilepack/synth/transition_set.h"
+#include "tilepack/transition/transition_set.h"
 
 #include <span>
 #include <string>
@@ -86,7 +86,7 @@ BakeOptions transition_options(BakeOptions options, int materials, bool colors_a
 /// transition_options() gives them. All materials get tiles of one size: unless one is asked for, the largest of those that
 /// suit each, in step with the first material that repeats.
 ///
-/// The result's sample, sources, report and prepared maps are about the joined sample (exemplar/joined_samples.h), its
+/// The result's sample, sources, report and prepared maps are about the joined sample (transition/joined_samples.h), its
 /// figures about the materials, each as a set by itself, in the mean.
 BakedPack baked_transition(std::span<const TransitionMaterial> materials, const BakeOptions& options,
                            const Progress& progress = {});

@@ -48,8 +48,8 @@ struct BakeOptions : PackingOptions {
   bool straighten = true; ///< courses that repeat unevenly are made even (exemplar/straighten.h)
   SetKind set = SetKind::complete;
   WrapChoice wraps = WrapChoice::found;
-  int flatten = 0; ///< percent of slow shading taken out of the sample, 0..100 (exemplar/flatten.h)
-  bool fit_flatten = false; ///< it follows the sample (bake/tone_choice.h) in place of `flatten`
+  int flatten = 0;          ///< percent of slow shading taken out of the sample, 0..100 (exemplar/flatten.h)
+  bool fit_flatten = false; ///< it follows the sample (exemplar/tone_choice.h) in place of `flatten`
 };
 
 } // namespace tilepack

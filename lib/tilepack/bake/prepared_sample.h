@@ -1,9 +1,9 @@
 #pragma once
 
 #include "tilepack/bake/bake_options.h"
-#include "tilepack/bake/tone_choice.h"
 #include "tilepack/exemplar/period.h"
 #include "tilepack/exemplar/sample_wrap.h"
+#include "tilepack/exemplar/tone_choice.h"
 #include "tilepack/tileset/material_map.h"
 
 #include <optional>

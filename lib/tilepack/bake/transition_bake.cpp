@@ -3,11 +3,11 @@
 #include "tilepack/bake/prepared_sample.h"
 #include "tilepack/bake/tile_size_choice.h"
 #include "tilepack/error/error.h"
-#include "tilepack/exemplar/joined_samples.h"
 #include "tilepack/exemplar/object_scale.h"
 #include "tilepack/numeric/side_by_side.h"
-#include "tilepack/synth/transition_set.h"
 #include "tilepack/tileset/limits.h"
+#include "tilepack/transition/joined_samples.h"
+#include "tilepack/transition/transition_set.h"
 
 #include <fmt/format.h>
 

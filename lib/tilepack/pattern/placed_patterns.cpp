@@ -255,7 +255,8 @@ bool PatternDrawing::may_show(const TileTransform& t, CellOffset cell, const Pix
 void PatternDrawing::draw(const PatternInstance& instance, const GridWalk& walk, CellOffset cell,
                           std::size_t i, std::size_t end, bool clipped, const RunValues& out) const {
   const TileTransform& t = instance.transform;
-  const auto [own_level, wide, high, margin] = sharpness(t.scale);
+  const auto [own_level, wide, high, margin_found] = sharpness(t.scale);
+  const double margin = margin_found; // a name that a lambda may take
   if (!may_show(t, cell, pixel_box(walk, i, end))) return;
   SourceSamples samples;
   std::array<std::size_t, longest_run> pixel{};

@@ -1,6 +1,6 @@
 #include "support/samples.h"
 
-#include "tilepack/bake/tone_choice.h"
+#include "tilepack/exemplar/tone_choice.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tilepack/bake/tone_choice.h"
+#include "tilepack/exemplar/tone_choice.h"
 
 #include "tilepack/exemplar/courses.h"
 #include "tilepack/exemplar/feature_image.h"

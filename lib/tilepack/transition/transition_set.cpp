@@ -1,11 +1,11 @@
-#include "tilepack/synth/transition_set.h"
+#include "tilepack/transition/transition_set.h"
 
 #include "tilepack/numeric/random.h"
 #include "tilepack/numeric/side_by_side.h"
 #include "tilepack/seam/label_cut.h"
-#include "tilepack/seam/transition_guide.h"
 #include "tilepack/synth/synthesize.h"
-#include "tilepack/synth/transition_field.h"
+#include "tilepack/transition/transition_field.h"
+#include "tilepack/transition/transition_guide.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "tilepack/error/progress.h"
-#include "tilepack/exemplar/joined_samples.h"
 #include "tilepack/exemplar/sample_analysis.h"
 #include "tilepack/synth/synth_options.h"
 #include "tilepack/tileset/source_map.h"
+#include "tilepack/transition/joined_samples.h"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "support/samples.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/exemplar/joined_samples.h"
+#include "tilepack/transition/joined_samples.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "tilepack/exemplar/joined_samples.h"
+#include "tilepack/transition/joined_samples.h"
 
 #include "tilepack/error/error.h"
 

@@ -1,6 +1,6 @@
 #include "support/samples.h"
 
-#include "tilepack/synth/transition_set.h"
+#include "tilepack/transition/transition_set.h"
 
 #include <tbb/global_control.h>
 

@@ -1,4 +1,4 @@
-#include "tilepack/seam/transition_guide.h"
+#include "tilepack/transition/transition_guide.h"
 
 #include "tilepack/exemplar/object_scale.h"
 #include "tilepack/exemplar/structure.h"

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "tilepack/exemplar/joined_samples.h"
 #include "tilepack/exemplar/sample_analysis.h"
 #include "tilepack/numeric/grid.h"
 #include "tilepack/seam/label_cut.h"
 #include "tilepack/seam/source_canvas.h"
+#include "tilepack/transition/joined_samples.h"
 
 #include <cstdint>
 #include <span>

@@ -1,4 +1,4 @@
-#include "tilepack/synth/transition_field.h"
+#include "tilepack/transition/transition_field.h"
 
 #include "tilepack/numeric/random.h"
 #include "tilepack/tileset/limits.h"
