@@ -56,6 +56,7 @@ class WhatIsMade(Batch):
                       {"verb": "compare", "a": "packs/a", "b": "packs/a", "output": "same.txt"})
         self.assertEqual(self.counts("m.json", "--jobs", 2), {"built": 8})
         self.assertTrue(self.read_json("checks/a.json")["passed"])
+        self.assertNotIn("TP208", str(self.read_json("checks/a.json")), "the side file of batch is no stray file")
         self.assertEqual(self.counts("m.json"), {"current": 8})
 
     def test_the_bytes_are_those_of_bake(self):
@@ -244,6 +245,7 @@ class Failures(Batch):
                 self.write("m.json", good % entry)
                 self.refused("batch", "m.json", code=code, saying=saying)
         for entry, saying in (
+                ('{"sample": "in/a.png", "output": "b",\n "options": {"require": "good"}}', 'm.json:5: "require": is taken on the command line alone'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"sede": 1}}', 'm.json:5: "sede": is no option of bake; did you mean "seed"?'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": "x"}}', 'm.json:5: "seed": \'x\' is not allowed'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": [1, 2]}}', 'm.json:5: "seed": has several values'),

@@ -237,6 +237,24 @@ class SmallScene(CommandCase):
         self.assertNotEqual(self.contents()["s.png"], before)
 
 
+class WrongKinds(CommandCase):
+    def test_a_pack_is_no_scene_and_a_scene_no_pack(self):
+        self.noise_png("a.png", 48, 48)
+        self.run_tilepack("bake", "a.png", "-o", "p", "--tile-size", "16", "--effort", "0")
+        self.write_json("s.json", {"format": "tilepack-scene", "version": 1, "size": [64, 64], "nodes": {"p": {"block": "pack", "file": "p"}}, "output": "p"})
+        self.refused("compose", "p", "-o", "x.png", code=3, saying=["render shows packs"])
+        self.refused("shader", "s.json", "--lang", "c", code=3, saying=["this is a scene", "compose draws it"])
+
+    def test_patterns_of_two_sizes_are_found_without_drawing(self):
+        self.noise_png("a.png", 32, 32)
+        self.noise_png("b.png", 32, 16)
+        self.write_json("s.json", {"format": "tilepack-scene", "version": 1, "size": [64, 64], "nodes": {
+            "cells": {"block": "tile-map", "cells": [2, 2]},
+            "look": {"block": "reference-texture", "patterns": ["a.png", "b.png"], "pattern": 0, "place": "cells"}}, "output": "look"})
+        found = self.run_tilepack("validate", "s.json", code=5)
+        self.assertIn("patterns of a set have one size", found.stdout)
+
+
 class Transitions(CommandCase):
     def test_tiles_of_a_transition_follow_a_map_of_materials(self):
         side, tile, cells = 48, 16, 8

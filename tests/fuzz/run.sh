@@ -8,7 +8,11 @@ if [ $# -gt 0 ]; then shift; fi
 all="pack_json manifest scene preset obj_mesh color_list cache_entry" # command_line is run where it is named
 targets=${*:-$all}
 cmake -G Ninja -S tests/fuzz -B build/fuzz -D CMAKE_CXX_COMPILER="${CLANGXX:-clang++-14}" >/dev/null
-ninja -C build/fuzz ${FUZZ_BUILD_JOBS:+-j "$FUZZ_BUILD_JOBS"} $(printf 'fuzz_%s ' $targets) >/dev/null
+# Quiet unless it fails: what the compiler says is on stdout.
+if ! ninja -C build/fuzz ${FUZZ_BUILD_JOBS:+-j "$FUZZ_BUILD_JOBS"} $(printf 'fuzz_%s ' $targets) >build/fuzz/build.log; then
+  tail -n 40 build/fuzz/build.log
+  exit 1
+fi
 # A look in passing tries the same inputs each time; a hunt tries others.
 if [ -n "$minutes" ]; then seconds=$((minutes * 60)) seed=0; else seconds=9 seed=1; fi
 made=$PWD/build/fuzz # in full: a target may go to another folder

@@ -315,6 +315,9 @@ BakeJob bake_job_of(const Manifest& manifest, const BatchEntry& entry) {
     } else if (option.name == "max-texels") {
       if (!parse_whole(value, 1, std::int64_t{1} << 40, job.max_texels))
         refuse(fmt::format("a whole number of 1 to {}", std::int64_t{1} << 40));
+    } else if (option.name == "require" || option.name == "apply-advice" || option.name == "transition") {
+      throw Error(ErrorKind::invalid_content, where,
+                  "is taken on the command line alone: no entry of a manifest has it");
     } else if (!is_bake_word(option.name)) {
       known.insert(known.end(), {"encoding", "channels", "max-texels", "report", "jobs"});
       const std::string nearest = nearest_name(option.name, known);

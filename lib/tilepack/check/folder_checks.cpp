@@ -1,5 +1,6 @@
 #include "tilepack/check/folder_checks.h"
 
+#include "tilepack/batch/build_record.h"
 #include "tilepack/check/announced_files.h"
 #include "tilepack/check/structure_checks.h"
 #include "tilepack/error/error.h"
@@ -120,7 +121,8 @@ std::vector<Issue> check_names(const std::vector<AnnouncedFile>& files, const Pa
                                const std::string& json_name) {
   std::vector<Issue> issues;
   std::map<std::string, std::string> where;
-  std::set<std::string> known{json_name};
+  // The side file is what batch knows a pack by.
+  std::set<std::string> known{json_name, std::filesystem::path(side_file_of("", true)).filename().string()};
   for (const AnnouncedFile& file : files) {
     const auto [first, fresh] = where.try_emplace(file.file, file.where);
     if (!fresh)

@@ -62,18 +62,6 @@ Image averaged(const Image& from, Size size, int layers, bool alpha) {
 
 } // namespace
 
-std::vector<Size> far_level_sizes(const Layout& layout, Size tile_size, int tile_levels) {
-  const int layers = layout.kind == LayoutKind::array ? layout.rows : 1;
-  Size side = texture_size(layout, tile_size, tile_levels - 1);
-  side.height /= layers;
-  std::vector<Size> sizes;
-  while (side.width > 1 || side.height > 1) {
-    side = {std::max(1, side.width / 2), std::max(1, side.height / 2)};
-    sizes.push_back({side.width, side.height * layers});
-  }
-  return sizes;
-}
-
 std::vector<Image> far_levels(const PlacedLevel& last, int layers, const std::vector<Size>& sizes,
                               const PlacedLevel* normals) {
   const Image values = decoded_level(last);

@@ -438,7 +438,10 @@ SetFigures read_synthesis(const JsonCursor& value) {
 
 PackDescription parsed_pack_json(std::string_view text, const std::string& file) {
   const JsonCursor root = JsonCursor::parse(text, file);
-  root.member("format").one_of({"tilepack"});
+  const JsonCursor format = root.member("format");
+  if (format.is_text() && format.text() == "tilepack-scene")
+    format.fail("is \"tilepack-scene\": this is a scene, not a pack; compose draws it");
+  format.one_of({"tilepack"});
   const JsonCursor version = root.member("version");
   if (version.is_integer() && version.number(-HUGE_VAL, HUGE_VAL) > 1)
     version.fail(

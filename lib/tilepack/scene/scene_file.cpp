@@ -362,6 +362,9 @@ bool is_scene_file(const std::string& file) {
 }
 
 SceneFile read_scene(const std::string& file) {
+  std::error_code fault;
+  if (std::filesystem::is_directory(file, fault) || std::filesystem::path(file).filename() == "pack.json")
+    throw Error(ErrorKind::invalid_content, file, "is no scene but a folder or a pack; render shows packs");
   return parsed_scene(read_text_file(file, "the scene"), file);
 }
 

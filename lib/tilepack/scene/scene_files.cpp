@@ -31,14 +31,16 @@ auto asked_from(const std::string& place, Work work) {
   throw Error(ErrorKind::invalid_content, file, what);
 }
 
+void require_size(const std::string& file, Size found, Size size) {
+  if (found == size) return;
+  refuse(file, fmt::format(
+                   "has {} x {} texels, and the patterns before it {} x {}; patterns of a set have one size",
+                   found.width, found.height, size.width, size.height));
+}
+
 Image read_as(const std::string& file, const ReadOptions& options, Size size, int channels) {
   ImageFile read = read_image(file, options);
-  const Size found{read.image.width(), read.image.height()};
-  if (!(found == size))
-    refuse(
-        file,
-        fmt::format("has {} x {} texels, and the patterns before it {} x {}; patterns of a set have one size",
-                    found.width, found.height, size.width, size.height));
+  require_size(file, {read.image.width(), read.image.height()}, size);
   return with_channels(std::move(read.image), channels);
 }
 
@@ -150,12 +152,14 @@ std::shared_ptr<const PatternSource> SceneFiles::patterns(const std::vector<std:
   if (!is_light(map.role)) options.encoding = Encoding::linear;
   bool is_colored = false, is_clear = false;
   const ImageHeader first = asked_from(place, [&] {
+    const ImageHeader of_all = read_image_header(resolved.front(), options);
     for (const std::string& file : resolved) {
-      const int channels = read_image_header(file, options).channels;
-      is_colored = is_colored || channels >= 3;
-      is_clear = is_clear || has_alpha(map.role, channels);
+      const ImageHeader header = read_image_header(file, options);
+      require_size(file, header.size, of_all.size);
+      is_colored = is_colored || header.channels >= 3;
+      is_clear = is_clear || has_alpha(map.role, header.channels);
     }
-    return read_image_header(resolved.front(), options);
+    return of_all;
   });
   PackFacts facts;
   facts.name = paths.front();
