@@ -148,8 +148,15 @@ TEST_CASE("jobs share threads and memory, and a failure keeps only what hangs on
   jobs[6].after = {5};
   std::set<std::size_t> failed, skipped;
   const auto ends = run_all(
-      jobs, {8, 100}, [&](std::size_t job, const std::exception_ptr&) { failed.insert(job); },
-      [&](std::size_t job) { skipped.insert(job); });
+      jobs, {8, 100},
+      [&](std::size_t job, const std::exception_ptr&) {
+        const std::scoped_lock lock(mutex);
+        failed.insert(job);
+      },
+      [&](std::size_t job) {
+        const std::scoped_lock lock(mutex);
+        skipped.insert(job);
+      });
   CHECK(most <= 100);
   CHECK(most > 70);
   CHECK(ran == 10);
