@@ -170,6 +170,16 @@ class Rules(unittest.TestCase):
         self.none_of(faults, "every key stands in lib/REFERENCES.md")
         self.assertLessEqual({"Wei04", "Cohen03"}, used)
 
+    def test_headings_of_pages_are_headings(self):
+        faults = []
+        for path, text in files(".md"):
+            fenced = False
+            for number, line in enumerate(text.splitlines(), 1):
+                fenced ^= line.startswith("```")
+                if not fenced and re.match(r" {0,3}#+[^#\s]", line):
+                    faults.append(f"{path}:{number}: {line[:40]}")
+        self.none_of(faults, "a page's heading has a space after its signs (was it formatted as code?)")
+
     def test_files_are_short(self):
         faults = [f"{path}: {count} lines" for path, text in files(*CODE, "CMakeLists.txt", ".json", ".md")
                   if (count := text.count("\n")) > 500]
