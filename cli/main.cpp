@@ -184,6 +184,10 @@ int guarded_run(const std::vector<std::string>& arguments) {
 } // namespace tilepack::cli
 
 int main(int argc, char** argv) {
+  // OpenImageIO, where it is loaded, brings OpenBLAS, which starts a thread a core then. Each takes 128 MiB of
+  // address space, and where it gets none tries for ever; where a thread is refused, it sends the program a SIGINT.
+  // Nothing here multiplies matrices with it, but it can only be told by its environment.
+  ::setenv("OPENBLAS_NUM_THREADS", "1", 0);
   const int code = tilepack::cli::guarded_run({argv + 1, argv + argc});
   if (code < 0) tilepack::cli::end_by_signal();
 #ifdef TILEPACK_SANITIZED

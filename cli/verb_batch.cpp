@@ -118,8 +118,21 @@ void print_rules(const BatchArguments& arguments, const Manifest& manifest,
     write_text_file(arguments.rules, text);
 }
 
+// Nothing is asked for but that all be current, and to be told how many there are.
+bool is_plain(const BatchArguments& arguments) {
+  return arguments.only.empty() && arguments.shard.empty() && arguments.cache_size.empty() &&
+         arguments.depfile.empty() && arguments.stamp.empty() && arguments.log_format == "text" &&
+         arguments.emit.empty() && !arguments.watch && !arguments.dry_run && !arguments.all &&
+         !arguments.verbose;
+}
+
 int run_once(const BatchArguments& arguments, Console& console) {
   const BatchSettings settings = settings_from(arguments);
+  if (is_plain(arguments))
+    if (const auto entries = entries_if_all_current(arguments.manifest)) {
+      BatchDisplay(console, {}, LogFormat::text, false).summary(std::vector<EntryResult>(*entries));
+      return 0;
+    }
   const Manifest manifest = read_manifest(arguments.manifest);
   const std::vector<std::size_t> chosen = chosen_entries(manifest, arguments.only, arguments.shard);
   if (!arguments.emit.empty()) {

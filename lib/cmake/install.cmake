@@ -6,7 +6,7 @@ set(tilepack_package ${CMAKE_INSTALL_LIBDIR}/cmake/tilepack)
 set(tilepack_share ${CMAKE_INSTALL_DATADIR}/tilepack)
 
 file(RELATIVE_PATH modules_from_bin /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR}/tilepack)
-set_target_properties(tilepack_cli PROPERTIES INSTALL_RPATH $ORIGIN/${modules_from_bin})
+set_target_properties(tilepack_cli PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_bin};$ORIGIN/modules")
 install(TARGETS tilepack_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS tilepack_openimageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/tilepack)
 install(TARGETS tilepack_runtime tilepack EXPORT tilepackTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -89,9 +89,41 @@ TEST_CASE("an index holds while files are as they were") {
   const CurrentIndex index(index_file);
   CHECK(index.holds("out", hash_of("r")));
   CHECK_FALSE(index.holds("gone", hash_of("r")));
-  CHECK(index.files_of("out") == std::vector{file});
   write_text_file(file, "two");
   CHECK_FALSE(index.holds("out", hash_of("r")));
+}
+
+TEST_CASE("an index holds as a whole while all of it does") {
+  const ScratchFolder scratch;
+  const std::string folder = (scratch / "samples").string(), index_file = (scratch / "index").string();
+  const std::string a = folder + "/a", b = folder + "/b";
+  write_text_file(a, "one");
+  write_text_file(b, "two");
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  const ContentHash request = hash_of("m");
+  const auto noted = [&](const std::vector<std::string>& outputs, const std::vector<std::string>& kept) {
+    std::filesystem::remove(index_file);
+    CurrentIndex index(index_file);
+    index.note("x", hash_of("r"), {a});
+    index.note("y", hash_of("r"), {b});
+    index.note_all(request, outputs, {folder});
+    index.store(kept);
+    return CurrentIndex(index_file).all_hold(request);
+  };
+  CHECK(noted({"x", "y"}, {"x", "y", ""}) == 2u);
+  CHECK_FALSE(noted({"x", "y"}, {"x", ""}));           // a note is lost
+  CHECK_FALSE(noted({"x", "y"}, {"x", "y"}));          // not kept, for something is not current
+  CHECK_FALSE(noted({"x", "y", "z"}, {"x", "y", ""})); // an output that was never noted
+  CHECK(noted({"x", "y"}, {"x", "y", ""}) == 2u);
+  CHECK_FALSE(CurrentIndex(index_file).all_hold(hash_of("another manifest")));
+  SECTION("a file changes") {
+    write_text_file(b, "two");
+    CHECK_FALSE(CurrentIndex(index_file).all_hold(request));
+  }
+  SECTION("a file more lies in the folder") {
+    write_text_file(folder + "/c", "three");
+    CHECK_FALSE(CurrentIndex(index_file).all_hold(request));
+  }
 }
 
 TEST_CASE("heads of the cache are read as they were written and damage is noticed") {

@@ -95,6 +95,7 @@ TEST_CASE("patterns match name by name") {
         std::vector{root + "/x/a.png", root + "/x/b.png", root + "/x/y/c.png"});
   CHECK(paths_matching(root + "/x/*.png").folders == std::vector{root + "/x"});
   CHECK(paths_matching(root + "/*").paths == std::vector{root + "/x"});
+  CHECK(paths_matching(root + "/*/none.png").folders == std::vector{root, root + "/x"}); // where one may come to be
 }
 
 TEST_CASE("parts of a manifest are a partition that stays as it is when entries are added") {
@@ -145,4 +146,11 @@ TEST_CASE("places in a document have lines") {
   CHECK(json_line(text, "e") == 5);
   CHECK(json_line(text, "a[1].none") == 3);
   for (std::size_t cut = 0; cut < text.size(); ++cut) json_line(text.substr(0, cut), "a[1].d"); // ends
+  const JsonLines lines(text);
+  for (const char* place :
+       {"", "a", "a[0]", "a[1]", "a[1].b.c", "a[1].d", "a[2]", "a[x]", "a[", "e", "f", "a[1].none"}) {
+    CAPTURE(place);
+    CHECK(lines.line(place) == json_line(text, place));
+  }
+  for (std::size_t cut = 0; cut < text.size(); ++cut) JsonLines(text.substr(0, cut)).line("a[1].d");
 }

@@ -6,6 +6,7 @@
 #include "tilepack/batch/job_queue.h"
 #include "tilepack/batch/output_cache.h"
 #include "tilepack/error/error.h"
+#include "tilepack/image/file_swap.h"
 
 #include <fmt/format.h>
 
@@ -41,6 +42,15 @@ ContentHash request_of(const BatchEntry& entry) {
     hasher.add_field(option.name);
     for (const std::string& value : option.values) hasher.add_field(value);
   }
+  return hasher.value();
+}
+
+// The same for all of a manifest.
+ContentHash request_of(const std::string& file, const std::string& text) {
+  ContentHasher hasher;
+  hasher.add_field(TILEPACK_VERSION);
+  hasher.add_field(file);
+  hasher.add_field(text);
   return hasher.value();
 }
 
@@ -111,10 +121,6 @@ public:
     }
     for (std::size_t i = 0; i < entries.size(); ++i)
       if (current[i]) tell(i);
-    std::set<std::string> folders;
-    for (const std::size_t i : queued)
-      if (entry_at(i).verb->output != BatchOutput::pack) folders.insert(folder_of_output(entry_at(i)));
-    for (const std::string& folder : folders) remove_left_over_parts(folder);
     run_all(
         jobs, {settings.jobs, settings.memory},
         [&](std::size_t job, const std::exception_ptr& fault) { fail(queued[job], fault); },
@@ -254,9 +260,7 @@ private:
 
   bool restored(std::size_t i, const ContentHash& key, const EntryState& state) {
     if (settings.cache.empty() || settings.all) return false;
-    const auto files = cache.restore(key, entry_at(i));
-    if (files) write_record(entry_at(i), {state.inputs, *files});
-    return files.has_value();
+    return cache.restore(key, entry_at(i), state.inputs);
   }
 
   void keep(std::size_t i, const ContentHash& key, const std::vector<HashedFile>& files) {
@@ -302,13 +306,20 @@ private:
   void store_index() {
     std::vector<std::string> outputs;
     for (const BatchEntry& entry : manifest.entries) outputs.push_back(entry.output);
+    const bool all = std::all_of(results.begin(), results.end(),
+                                 [](const EntryResult& result) { return result.end == EntryEnd::current; });
+    // A folder that the index is written to is never as it was.
+    const auto place = file_id(fs::absolute(manifest.file).parent_path());
+    const bool is_here = std::any_of(manifest.folders.begin(), manifest.folders.end(),
+                                     [&](const std::string& folder) { return file_id(folder) == place; });
+    if (all && results.size() == outputs.size() && !is_here) {
+      index.note_all(request_of(manifest.file, manifest.text), outputs, manifest.folders);
+      outputs.emplace_back();
+    }
     index.store(outputs);
   }
 
   void finish() {
-    if (std::any_of(results.begin(), results.end(),
-                    [](const EntryResult& r) { return r.end != EntryEnd::current; }))
-      remove_left_over_parts(fs::path(manifest.file).parent_path().string());
     store_index();
     const bool wrote = std::any_of(results.begin(), results.end(),
                                    [](const EntryResult& result) { return result.end == EntryEnd::built; });
@@ -332,6 +343,11 @@ private:
 std::string index_file_of(const std::string& manifest) {
   const fs::path file(manifest);
   return (file.parent_path() / fmt::format(".{}.index", file.filename().string())).string();
+}
+
+std::optional<std::size_t> entries_if_all_current(const std::string& manifest) {
+  const std::string text = read_text_file(manifest, "the manifest");
+  return CurrentIndex(index_file_of(manifest)).all_hold(request_of(manifest, text));
 }
 
 std::vector<EntryResult> run_batch(const Manifest& manifest, const std::vector<std::size_t>& chosen,

@@ -72,6 +72,10 @@ struct BatchCancelled {};
 /// Where the index of a manifest lies (CurrentIndex).
 std::string index_file_of(const std::string& manifest);
 
+/// How many entries a manifest has, if a run found all of them current and nothing changed since; found out without
+/// reading what it says. Throws Error (cannot_read).
+std::optional<std::size_t> entries_if_all_current(const std::string& manifest);
+
 /// Makes those of `chosen` entries, and of those that they are made from, whose outputs are not current: whose
 /// inputs, options or outputs have another content than when they were made, or that were made by another version.
 /// Goes on after a failure with all that does not hang on it. Results are in the order of the manifest, of all

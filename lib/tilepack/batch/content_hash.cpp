@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -86,13 +87,14 @@ std::string hex(const ContentHash& hash) {
 }
 
 std::optional<ContentHash> parsed_hash(std::string_view text) {
-  if (text.size() != 32) return std::nullopt;
+  const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  if (text.size() != 32 || !std::all_of(text.begin(), text.end(), is_digit)) return std::nullopt;
   ContentHash hash;
   for (const auto& [half, at] : {std::pair{&hash.high, 0}, std::pair{&hash.low, 16}}) {
     const auto [end, fault] = std::from_chars(text.data() + at, text.data() + at + 16, *half, 16);
     if (fault != std::errc() || end != text.data() + at + 16) return std::nullopt;
   }
-  return hex(hash) == text ? std::optional(hash) : std::nullopt; // no capitals, no sign
+  return hash;
 }
 
 ContentHash hash_of(std::string_view bytes) {

@@ -6,12 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 namespace tilepack {
@@ -25,17 +26,35 @@ std::int64_t nanoseconds(const timespec& time) {
   return std::int64_t{time.tv_sec} * second + time.tv_nsec;
 }
 
+void put(std::string& text, std::string_view field) {
+  text += fmt::format("{}:", field.size());
+  text += field;
+}
+
+// The next field of `text`, taken off it; false if there is none.
+bool take(std::string_view& text, std::string_view& field) {
+  std::size_t size = 0, digits = 0;
+  while (digits < text.size() && digits < 9 && text[digits] >= '0' && text[digits] <= '9')
+    size = size * 10 + static_cast<std::size_t>(text[digits++] - '0');
+  if (digits == 0 || digits >= text.size() || text[digits] != ':' || size > text.size() - digits - 1)
+    return false;
+  field = text.substr(digits + 1, size);
+  text.remove_prefix(digits + 1 + size);
+  return true;
+}
+
 struct FilesState {
   ContentHash hash;
   std::int64_t newest = 0;
 };
 
-// None if one of them is not there.
-std::optional<FilesState> state_of_files(const std::vector<std::string>& files) {
+// Of a list that put() made; none if one of them is not there.
+std::optional<FilesState> state_of_files(std::string_view files) {
   FilesState state;
   std::vector<std::uint64_t> numbers;
-  numbers.reserve(files.size() * 5);
-  for (const std::string& file : files) {
+  std::string file;
+  for (std::string_view name; take(files, name);) {
+    file = name;
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0) return std::nullopt;
     const std::int64_t modified = nanoseconds(status.st_mtim), changed = nanoseconds(status.st_ctim);
@@ -68,23 +87,6 @@ std::int64_t time_beside(const std::string& file) {
   return good ? nanoseconds(status.st_mtim) : 0;
 }
 
-void put(std::string& text, std::string_view field) {
-  text += fmt::format("{}:", field.size());
-  text += field;
-}
-
-// The next field of `text`, taken off it; false if there is none.
-bool take(std::string_view& text, std::string_view& field) {
-  std::size_t size = 0, digits = 0;
-  while (digits < text.size() && digits < 9 && text[digits] >= '0' && text[digits] <= '9')
-    size = size * 10 + static_cast<std::size_t>(text[digits++] - '0');
-  if (digits == 0 || digits >= text.size() || text[digits] != ':' || size > text.size() - digits - 1)
-    return false;
-  field = text.substr(digits + 1, size);
-  text.remove_prefix(digits + 1 + size);
-  return true;
-}
-
 bool take_hash(std::string_view& text, ContentHash& hash) {
   std::string_view field;
   if (!take(text, field)) return false;
@@ -97,11 +99,12 @@ bool take_hash(std::string_view& text, ContentHash& hash) {
 
 CurrentIndex::CurrentIndex(std::string name) : file(std::move(name)) {
   began = time_beside(file);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return;
-  std::ostringstream text;
-  text << stream.rdbuf();
-  read(text.str());
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : 0;
+  if (size <= 0) return;
+  std::string text(static_cast<std::size_t>(size), '\0');
+  stream.seekg(0);
+  if (stream.read(text.data(), size)) read(text);
 }
 
 void CurrentIndex::read(std::string_view bytes) {
@@ -112,9 +115,9 @@ void CurrentIndex::read(std::string_view bytes) {
   if (!take_hash(text, whole) || whole != hash_of(text)) return;
   for (std::string_view output; take(text, output);) {
     Note note;
-    std::string_view files, one;
+    std::string_view files;
     if (!take_hash(text, note.request) || !take_hash(text, note.state) || !take(text, files)) return;
-    while (take(files, one)) note.files.emplace_back(one);
+    note.files = files;
     notes.insert_or_assign(notes.end(), std::string(output), std::move(note));
   }
 }
@@ -125,9 +128,7 @@ std::string CurrentIndex::text() const {
     put(body, output);
     put(body, hex(note.request));
     put(body, hex(note.state));
-    std::string files;
-    for (const std::string& one : note.files) put(files, one);
-    put(body, files);
+    put(body, note.files);
   }
   std::string text(index_magic);
   put(text, hex(hash_of(body)));
@@ -142,22 +143,56 @@ bool CurrentIndex::holds(const std::string& output, const ContentHash& request) 
     if (found == notes.end() || found->second.request != request) return false;
     note = &found->second;
   }
-  const auto now = state_of_files(note->files);
-  return now && now->hash == note->state;
+  return holds(*note);
 }
 
-std::vector<std::string> CurrentIndex::files_of(const std::string& output) const {
-  const std::scoped_lock lock(mutex);
-  const auto found = notes.find(output);
-  return found == notes.end() ? std::vector<std::string>{} : found->second.files;
+bool CurrentIndex::holds(const Note& note) const {
+  const auto now = state_of_files(note.files);
+  return now && now->hash == note.state;
+}
+
+// Of so many outputs and no more: where a note was lost, not all of them are known.
+ContentHash CurrentIndex::request_for_all(const ContentHash& request, std::size_t count) const {
+  ContentHasher hasher;
+  hasher.add_number(request.high);
+  hasher.add_number(request.low);
+  hasher.add_number(count);
+  return hasher.value();
+}
+
+void CurrentIndex::note_all(const ContentHash& request, const std::vector<std::string>& outputs,
+                            const std::vector<std::string>& folders) {
+  const auto has_note = [&](const std::string& output) { return notes.contains(output); };
+  const ContentHash all = request_for_all(request, outputs.size());
+  if (std::all_of(outputs.begin(), outputs.end(), has_note) && !holds("", all)) note("", all, folders);
+}
+
+std::optional<std::size_t> CurrentIndex::all_hold(const ContentHash& request) const {
+  if (notes.empty() || !holds("", request_for_all(request, notes.size() - 1))) return std::nullopt;
+  std::vector<const Note*> list;
+  for (const auto& [output, note] : notes)
+    if (!output.empty()) list.push_back(&note);
+  // Two threads are what a disk's cache in memory serves; a pool that has to be woken takes longer than this.
+  std::atomic<bool> all = true;
+  const auto look = [&](std::size_t first) {
+    for (std::size_t i = first; i < list.size() && all; i += 2)
+      if (!holds(*list[i])) all = false;
+  };
+  {
+    const std::jthread odd([&] { look(1); });
+    look(0);
+  }
+  return all ? std::optional(list.size()) : std::nullopt;
 }
 
 void CurrentIndex::note(const std::string& output, const ContentHash& request,
                         const std::vector<std::string>& files) {
-  const auto now = state_of_files(files);
+  std::string list;
+  for (const std::string& one : files) put(list, one);
+  const auto now = state_of_files(list);
   const std::scoped_lock lock(mutex);
   if (now && now->newest < began - margin) {
-    notes.insert_or_assign(output, Note{request, files, now->hash});
+    notes.insert_or_assign(output, Note{request, std::move(list), now->hash});
     changed = true;
   } else {
     changed |= notes.erase(output) > 0;

@@ -30,12 +30,17 @@ public:
   /// called by several threads.
   bool holds(const std::string& output, const ContentHash& request) const;
 
-  /// The files that a note is about; empty if there is none.
-  std::vector<std::string> files_of(const std::string& output) const;
-
   /// Notes that it is current, as `files` are now; forgets it if that can't be relied on. They were read after
   /// this index was made, and not changed by us since. Safe to be called by several threads.
   void note(const std::string& output, const ContentHash& request, const std::vector<std::string>& files);
+
+  /// Notes that a manifest, asked for as a whole by a request with that hash, comes to `outputs` as long as the
+  /// files in `folders` stay the same ones. Only if each of them has a note.
+  void note_all(const ContentHash& request, const std::vector<std::string>& outputs,
+                const std::vector<std::string>& folders);
+
+  /// How many outputs it comes to, if all of them are current and nothing changed since.
+  std::optional<std::size_t> all_hold(const ContentHash& request) const;
 
   /// Forgets the outputs that are not in `outputs`, and stores the rest if something changed. Where the file can't
   /// be written nothing is kept.
@@ -44,15 +49,17 @@ public:
 private:
   struct Note {
     ContentHash request;
-    std::vector<std::string> files;
-    ContentHash state; // of all files together
+    std::string files; // as they stand in the file of the index
+    ContentHash state; // of all of them together
   };
+  bool holds(const Note& note) const;
+  ContentHash request_for_all(const ContentHash& request, std::size_t count) const;
   std::string text() const;
   void read(std::string_view bytes);
 
   std::string file;
-  std::map<std::string, Note, std::less<>> notes;
-  std::int64_t began = 0; // nanoseconds by the clock of the file system
+  std::map<std::string, Note, std::less<>> notes; // by output; without one, that of all of them
+  std::int64_t began = 0;                         // nanoseconds by the clock of the file system
   bool changed = false;
   mutable std::mutex mutex;
 };

@@ -163,8 +163,7 @@ void write_record(const BatchEntry& entry, const BuildRecord& record) {
 }
 
 void remove_left_overs(const BatchEntry& entry) {
-  if (!makes_pack(entry)) return; // of files, whoever goes through their folder
-  remove_left_over_parts(entry.output);
+  if (!makes_pack(entry)) return; // of files, whoever writes them (StagedFile)
   std::error_code fault;
   const fs::path folder = fs::absolute(entry.output).lexically_normal();
   const std::string name = ".tilepack-staging";

@@ -37,6 +37,7 @@ public:
   ManifestReader(std::string text, const std::string& file) {
     manifest.file = file;
     manifest.text = std::move(text);
+    manifest.lines = std::make_shared<JsonLines>(manifest.text);
     folder = fs::path(file).parent_path().string();
   }
 
@@ -125,16 +126,19 @@ private:
 
   // `first` is the path that {stem} and {folder} are taken from, and of a pattern the source itself.
   BatchEntry filled(const EntryText& text, const std::string& first, bool matched) {
-    const fs::path path = fs::path(first).has_filename() ? fs::path(first) : fs::path(first).parent_path();
-    std::error_code fault;
-    const bool is_folder = text.is_pack_pattern || fs::is_directory(path, fault);
-    const std::string stem = is_folder && !path.filename().string().ends_with(".pack")
-                                 ? path.filename().string()
-                                 : path.stem().string();
-    const std::string around = is_folder && text.verb->name == "bake"
-                                   ? path.filename().string()
-                                   : path.parent_path().filename().string();
+    std::string stem, around; // the disk is looked at for those who ask
+    const auto name_parts = [&] {
+      if (!stem.empty()) return;
+      const fs::path path = fs::path(first).has_filename() ? fs::path(first) : fs::path(first).parent_path();
+      std::error_code fault;
+      const bool is_folder = text.is_pack_pattern || fs::is_directory(path, fault);
+      stem = is_folder && !path.filename().string().ends_with(".pack") ? path.filename().string()
+                                                                       : path.stem().string();
+      around = is_folder && text.verb->name == "bake" ? path.filename().string()
+                                                      : path.parent_path().filename().string();
+    };
     const auto fill = [&](const std::string& words, const std::string& at) {
+      if (words.find('{') == words.npos) return words;
       std::string result;
       for (std::size_t i = 0; i < words.size();) {
         const std::size_t end = words[i] == '{' ? words.find('}', i) : std::string::npos;
@@ -145,6 +149,7 @@ private:
         const std::string word = words.substr(i + 1, end - i - 1);
         if (word != "stem" && word != "folder")
           fail(at, fmt::format("'{{{}}}' is not known; {{stem}} and {{folder}} are put in", word));
+        name_parts();
         result += word == "stem" ? stem : around;
         i = end + 1;
       }
@@ -210,11 +215,12 @@ private:
 
   // The entry that makes `path` or a folder around it.
   std::optional<std::size_t> made_around(const std::string& path) const {
-    for (fs::path at = path; !at.empty();) {
-      if (const auto found = outputs.find(at.string()); found != outputs.end()) return found->second;
-      const fs::path up = at.parent_path();
-      if (up == at) break;
-      at = up;
+    for (std::string_view at = path; !at.empty();) {
+      if (const auto found = outputs.find(at); found != outputs.end()) return found->second;
+      std::size_t end = at.rfind('/');
+      if (end == at.npos || at == "/") break;
+      while (end > 0 && at[end - 1] == '/') --end;
+      at = at.substr(0, std::max<std::size_t>(end, 1));
     }
     return std::nullopt;
   }
@@ -258,7 +264,7 @@ private:
   std::string folder;
   EntryDefaults defaults;
   std::vector<std::string> packs;
-  std::map<std::string, std::size_t> outputs;
+  std::map<std::string, std::size_t, std::less<>> outputs;
 };
 
 bool is_bake_word(const std::string& name) {
@@ -282,7 +288,8 @@ Manifest read_manifest(const std::string& file) {
 }
 
 std::string place_in(const Manifest& manifest, std::string_view at) {
-  return fmt::format("{}:{}", manifest.file, json_line(manifest.text, at));
+  return fmt::format("{}:{}", manifest.file,
+                     manifest.lines ? manifest.lines->line(at) : json_line(manifest.text, at));
 }
 
 BakeJob bake_job_of(const Manifest& manifest, const BatchEntry& entry) {

@@ -2,8 +2,10 @@
 
 #include "tilepack/bake/bake_job.h"
 #include "tilepack/batch/batch_entry.h"
+#include "tilepack/json/json_line.h"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +30,8 @@ struct Manifest {
   std::string file;
   std::string text;
   std::vector<BatchEntry> entries;
-  std::vector<std::string> folders; ///< that patterns looked through
+  std::vector<std::string> folders;       ///< that patterns looked through
+  std::shared_ptr<const JsonLines> lines; ///< of the text
 };
 
 /// Reads and expands. Throws Error: cannot_read for a missing file or a pattern without a match, invalid_content

@@ -92,18 +92,21 @@ bool copy_checked(int from, const CachedOutput::File& file,
   return hasher.value() == file.hash;
 }
 
-bool restore_pack(int from, const CachedOutput& head, const BatchEntry& entry) {
+// The side file comes with the pack, in one step.
+bool restore_pack(int from, const CachedOutput& head, const BatchEntry& entry, const BuildRecord& record) {
   std::error_code fault;
+  const std::string side = fs::path(side_file_of(entry.output, true)).filename().string();
   if (fs::exists(entry.output, fault)) check_pack_folder(entry.output); // refuses folders of others
-  std::vector<std::string> old_files, new_files;
+  std::vector<std::string> old_files, new_files{side};
+  if (fs::exists(fs::path(entry.output) / side, fault)) old_files.push_back(side);
   if (fs::exists(fs::path(entry.output) / "pack.json", fault)) {
-    old_files = read_pack_description(entry.output).all_files();
+    for (std::string& name : read_pack_description(entry.output).all_files()) old_files.push_back(name);
     old_files.emplace_back("pack.json");
   }
   StagedFolder staged(entry.output);
   for (const CachedOutput::File& file : head.files) {
     const fs::path path = staged.path() / file.name;
-    fs::create_directories(path.parent_path(), fault);
+    if (file.name.find('/') != std::string::npos) fs::create_directories(path.parent_path(), fault);
     const Descriptor to(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (to.get() < 0) throw failed(entry.output);
     const bool good = copy_checked(from, file, [&](std::string_view bytes) {
@@ -112,6 +115,9 @@ bool restore_pack(int from, const CachedOutput& head, const BatchEntry& entry) {
     if (!good) return false;
     new_files.push_back(file.name);
   }
+  const Descriptor to(::open((staged.path() / side).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  const std::string text = record_text(record);
+  if (to.get() < 0 || !write_all(to.get(), text.data(), text.size())) throw failed(entry.output);
   staged.commit(new_files, old_files);
   return true;
 }
@@ -141,11 +147,10 @@ std::string OutputCache::file_of(const ContentHash& key) const {
   return fmt::format("{}/{}/{}", root, name.substr(0, 2), name);
 }
 
-std::optional<std::vector<HashedFile>> OutputCache::restore(const ContentHash& key,
-                                                            const BatchEntry& entry) const {
+bool OutputCache::restore(const ContentHash& key, const BatchEntry& entry, const BuildInputs& inputs) const {
   const std::string file = file_of(key);
   const Descriptor from(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  if (from.get() < 0) return std::nullopt;
+  if (from.get() < 0) return false;
   // The head is small: most are found within the first piece.
   std::string start(64 << 10, '\0');
   ssize_t had = read_some(from.get(), start.data(), start.size());
@@ -157,20 +162,21 @@ std::optional<std::vector<HashedFile>> OutputCache::restore(const ContentHash& k
         0, read_some(from.get(), start.data() + had, start.size() - static_cast<std::size_t>(had)));
     head = parsed_cache_head({start.data(), static_cast<std::size_t>(had)});
   }
-  const bool good = head && fits(*head, entry) &&
-                    ::lseek(from.get(), static_cast<off_t>(head->head_size), SEEK_SET) >= 0 &&
-                    (entry.verb->output == BatchOutput::pack ? restore_pack(from.get(), *head, entry)
-                                                             : restore_file(from.get(), *head, entry));
-  if (!good) {
-    ::unlink(file.c_str()); // to be made again
-    return std::nullopt;
+  bool good =
+      head && fits(*head, entry) && ::lseek(from.get(), static_cast<off_t>(head->head_size), SEEK_SET) >= 0;
+  if (good) {
+    const bool is_pack = entry.verb->output == BatchOutput::pack;
+    BuildRecord record{inputs, {}};
+    for (const CachedOutput::File& one : head->files) record.outputs.push_back({one.name, one.hash});
+    if (!is_pack) record.outputs.front().name = fs::path(entry.output).filename().string();
+    good = is_pack ? restore_pack(from.get(), *head, entry, record) : restore_file(from.get(), *head, entry);
+    if (good && !is_pack) write_record(entry, record);
   }
-  ::futimens(from.get(), nullptr); // used just now
-  std::vector<HashedFile> files;
-  for (const CachedOutput::File& one : head->files) files.push_back({one.name, one.hash});
-  if (entry.verb->output != BatchOutput::pack)
-    files.front().name = fs::path(entry.output).filename().string();
-  return files;
+  if (good)
+    ::futimens(from.get(), nullptr); // used just now
+  else
+    ::unlink(file.c_str()); // to be made again
+  return good;
 }
 
 void OutputCache::keep(const ContentHash& key, const BatchEntry& entry,

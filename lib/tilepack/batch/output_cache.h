@@ -4,7 +4,6 @@
 #include "tilepack/batch/build_record.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,9 +18,10 @@ public:
   /// `folder` is made when first written to.
   explicit OutputCache(std::string folder) : root(std::move(folder)) {}
 
-  /// Puts the output that `key` stands for in place, as a bake would, and says which files it has; none if it is
-  /// not there or damaged, and then nothing has happened. Throws Error (cannot_write) if it can't be put there.
-  std::optional<std::vector<HashedFile>> restore(const ContentHash& key, const BatchEntry& entry) const;
+  /// Puts the output that `key` stands for in place, as a bake would, with its side file, which says that it was
+  /// made from `inputs`. False if it is not there or damaged, and then nothing has happened. Throws Error
+  /// (cannot_write) if it can't be put there.
+  bool restore(const ContentHash& key, const BatchEntry& entry, const BuildInputs& inputs) const;
 
   /// Keeps the output of `entry`. Throws Error (cannot_write), and then nothing is kept.
   void keep(const ContentHash& key, const BatchEntry& entry, const std::vector<HashedFile>& files) const;

@@ -7,9 +7,7 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -111,24 +109,6 @@ OutputLock::~OutputLock() {
   if (descriptor < 0) return;
   ::unlink(file.c_str());
   ::close(descriptor);
-}
-
-// StagedFile calls them ".NAME.PROCESS-NUMBER.part".
-void remove_left_over_parts(const std::string& folder) {
-  std::error_code fault;
-  for (fs::directory_iterator at(folder.empty() ? "." : folder, fault), end; !fault && at != end;
-       at.increment(fault)) {
-    const std::string name = at->path().filename().string();
-    if (!name.starts_with('.') || !name.ends_with(".part")) continue;
-    const std::size_t dash = name.rfind('-');
-    const std::size_t dot = dash == std::string::npos ? dash : name.rfind('.', dash);
-    int process = 0;
-    if (dot == std::string::npos) continue;
-    const auto [rest, bad] = std::from_chars(name.data() + dot + 1, name.data() + dash, process);
-    if (bad != std::errc() || rest != name.data() + dash || process <= 0 || process == ::getpid()) continue;
-    std::error_code unused;
-    if (::kill(process, 0) != 0 && errno == ESRCH) fs::remove(at->path(), unused);
-  }
 }
 
 } // namespace tilepack

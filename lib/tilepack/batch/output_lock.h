@@ -32,7 +32,4 @@ private:
   bool waited = false;
 };
 
-/// Removes what killed processes of this machine left in `folder` of unfinished versions of files (StagedFile).
-void remove_left_over_parts(const std::string& folder);
-
 } // namespace tilepack

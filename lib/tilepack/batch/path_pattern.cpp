@@ -43,29 +43,31 @@ class Search {
 public:
   PatternMatches found;
 
-  void in(const std::string& folder, std::span<const std::string> pattern) {
+  // `matched`: a part of the pattern before this one matched the folder.
+  void in(const std::string& folder, std::span<const std::string> pattern, bool matched = false) {
     if (pattern.empty()) {
       if (!folder.empty()) found.paths.push_back(folder);
       return;
     }
     if (pattern.front() == "**") {
-      in(folder, pattern.subspan(1));
+      in(folder, pattern.subspan(1), true);
       for (const fs::directory_entry& entry : listed(folder)) {
         std::error_code fault;
         const std::string name = entry.path().filename().string();
         if (name.front() != '.' && entry.is_directory(fault) && !entry.is_symlink(fault))
-          in(joined(folder, name), pattern);
+          in(joined(folder, name), pattern, true);
       }
     } else if (!is_pattern(pattern.front())) {
       std::error_code fault;
       const std::string path = joined(folder, pattern.front());
-      if (fs::exists(path, fault)) in(path, pattern.subspan(1));
+      if (matched) found.folders.push_back(folder.empty() ? "." : folder); // where it may come to be
+      if (fs::exists(path, fault)) in(path, pattern.subspan(1), matched);
     } else {
       for (const fs::directory_entry& entry : listed(folder)) {
         const std::string name = entry.path().filename().string();
         std::error_code fault;
         if (name_matches(pattern.front(), name) && (pattern.size() == 1 || entry.is_directory(fault)))
-          in(joined(folder, name), pattern.subspan(1));
+          in(joined(folder, name), pattern.subspan(1), true);
       }
     }
   }

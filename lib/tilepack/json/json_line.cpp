@@ -11,7 +11,7 @@ namespace {
 // Walks over the text of a document without keeping anything of it.
 class JsonWalk {
 public:
-  explicit JsonWalk(std::string_view document) : text(document) {}
+  explicit JsonWalk(std::string_view document, std::size_t from = 0) : text(document), at(from) {}
 
   // To the value at `place` within the one that begins here; false where it leads no further.
   bool descend(std::string_view place) {
@@ -31,9 +31,45 @@ public:
     return true;
   }
 
-  int line() const {
-    return 1 +
-           static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  std::size_t place() const { return at; }
+
+  int lines_since(std::size_t start) const {
+    return static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(start),
+                                       text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  }
+
+  // Calls `begins` with each name at the place where its value begins, which it may walk over.
+  template <typename Begins>
+  void each_member(const Begins& begins) {
+    blank();
+    if (here() != '{') return;
+    for (++at, blank(); here() == '"'; blank()) {
+      const std::string_view name = quoted();
+      blank();
+      if (here() != ':') return;
+      ++at;
+      blank();
+      const std::size_t start = at;
+      begins(name);
+      at = start;
+      skip();
+      blank();
+      if (here() != ',') return;
+      ++at;
+    }
+  }
+
+  template <typename Begins>
+  void each_item(const Begins& begins) {
+    if (here() != '[') return;
+    for (++at; more(); ++at) {
+      blank();
+      if (here() == ']') return;
+      begins();
+      skip();
+      blank();
+      if (here() != ',') return;
+    }
   }
 
 private:
@@ -126,7 +162,41 @@ private:
 int json_line(std::string_view document, std::string_view place) {
   JsonWalk walk(document);
   walk.descend(place);
-  return walk.line();
+  return 1 + walk.lines_since(0);
+}
+
+void JsonLines::note_members() const {
+  JsonWalk walk(text);
+  Begin last;
+  const auto here = [&] {
+    last.line += walk.lines_since(last.at);
+    last.at = walk.place();
+    return last;
+  };
+  walk.each_member([&](std::string_view name) {
+    const auto [member, is_new] = members.try_emplace(std::string(name), Member{here(), {}});
+    if (is_new) walk.each_item([&] { member->second.items.push_back(here()); });
+  });
+}
+
+int JsonLines::line(std::string_view place) const {
+  std::call_once(noted, [&] { note_members(); });
+  const std::size_t end = std::min(place.find_first_of(".["), place.size());
+  const auto found = members.find(place.substr(0, end));
+  if (found == members.end()) return json_line(text, place);
+  Begin begin = found->second.value;
+  place.remove_prefix(end);
+  std::size_t index = 0;
+  if (place.starts_with('[')) {
+    const auto [rest, fault] = std::from_chars(place.data() + 1, place.data() + place.size(), index);
+    if (fault == std::errc() && index < found->second.items.size() && rest != place.data() + place.size()) {
+      begin = found->second.items[index];
+      place.remove_prefix(static_cast<std::size_t>(rest - place.data()) + 1);
+    }
+  }
+  JsonWalk walk(text, begin.at);
+  walk.descend(place);
+  return begin.line + walk.lines_since(begin.at);
 }
 
 } // namespace tilepack

@@ -1,6 +1,6 @@
 #include "tilepack/match/patch_search.h"
 
-#include <opencv2/core.hpp>
+#include "tilepack/match/plane_transform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,11 +26,9 @@ void Overlap::add(int x, int y, const std::uint8_t* texel, int texel_weight) {
 
 struct PatchSearch::Spectra {
   struct Part {
-    Rect area;    // of the image
-    int rows = 0; // of the padded transform
-    int columns = 0;
-    std::vector<cv::Mat> channel; // one a channel
-    cv::Mat squares;              // of the sum over channels of squares
+    Rect area; // of the image
+    PlaneTransform transform;
+    std::vector<ComplexPlane> pairs; // the transforms of the pairs of values below
   };
   int width = 0;
   int height = 0;
@@ -40,9 +38,14 @@ struct PatchSearch::Spectra {
 
 namespace {
 
-cv::Mat forward(cv::Mat& plane, int nonzero_rows) {
-  cv::dft(plane, plane, 0, nonzero_rows);
-  return plane;
+// What is correlated are channels + 1 planes of values: the sums of squares with the weights, and each channel with
+// what the patch has of it. Two of them make one complex plane, for (a + ib) times the conjugate of (c + id) has the
+// real part ac + bd, and the sum of all is what is wanted. Squares are far larger than values, and weights far
+// smaller than weighted values; a power of two makes them alike, so that neither drowns the other's low digits.
+constexpr double square_scale = 1.0 / 512;
+
+int pair_count(int channels) {
+  return (channels + 2) / 2;
 }
 
 // Exact for |v| < 2^51: adding 1.5 * 2^52 leaves no room for a fraction, so the sum is rounded to an integer.
@@ -78,27 +81,23 @@ PatchSearch::PatchSearch(const FeatureImage& image, Size largest_patch, std::int
   s.height = image.height;
   s.channels = image.channels;
   for (const Rect& area : searched_parts(image, largest_patch, most_texels)) {
-    Spectra::Part& part = s.parts.emplace_back();
-    part.area = area;
-    part.rows = cv::getOptimalDFTSize(area.height);
-    part.columns = cv::getOptimalDFTSize(area.width);
-    for (int c = -1; c < image.channels; ++c) {
-      cv::Mat plane(part.rows, part.columns, CV_64F, cv::Scalar(0));
-      for (int y = 0; y < area.height; ++y) {
-        double* row = plane.ptr<double>(y);
+    const int rows = transform_size(area.height), columns = transform_size(area.width);
+    Spectra::Part& part = s.parts.emplace_back(Spectra::Part{area, PlaneTransform(rows, columns), {}});
+    const auto value = [&](const std::uint8_t* texel, int plane) {
+      if (plane > 0) return plane > image.channels ? 0.0 : texel[plane - 1];
+      int sum = 0;
+      for (int i = 0; i < image.channels; ++i) sum += texel[i] * texel[i];
+      return square_scale * sum;
+    };
+    for (int pair = 0; pair < pair_count(image.channels); ++pair) {
+      ComplexPlane& plane = part.pairs.emplace_back(rows, columns);
+      for (int y = 0; y < area.height; ++y)
         for (int x = 0; x < area.width; ++x) {
           const std::uint8_t* texel = image.texel(area.x + x, area.y + y);
-          if (c >= 0) {
-            row[x] = texel[c];
-          } else {
-            int sum = 0;
-            for (int i = 0; i < image.channels; ++i) sum += texel[i] * texel[i];
-            row[x] = sum;
-          }
+          plane.real_row(y)[x] = value(texel, 2 * pair);
+          plane.imaginary_row(y)[x] = value(texel, 2 * pair + 1);
         }
-      }
-      forward(plane, area.height);
-      (c >= 0 ? part.channel.emplace_back() : part.squares) = plane;
+      part.transform.forward(plane, {area.width, area.height});
     }
   }
 }
@@ -112,29 +111,29 @@ PositionMap PatchSearch::mismatches(const Overlap& overlap) const {
   for (const Spectra::Part& part : s.parts) {
     // sum w |S - v|² = (S² ⋆ w) - 2 sum over channels (S ⋆ w v) + constant, ⋆ a correlation. Positions at
     // which the patch would wrap round the padded image are not read.
-    cv::Mat total(part.rows, part.columns, CV_64F, cv::Scalar(0));
-    cv::Mat plane(part.rows, part.columns, CV_64F);
-    cv::Mat product;
-    for (int c = -1; c < s.channels; ++c) {
-      plane.setTo(0);
+    const int rows = part.pairs.front().rows, columns = part.pairs.front().columns;
+    ComplexPlane total(rows, columns), plane(rows, columns);
+    const auto value = [&](std::size_t texel, int number) {
+      if (number == 0) return overlap.weight[texel] / square_scale;
+      if (number > s.channels) return 0.0;
+      return -2.0 * overlap.weighted[texel * static_cast<std::size_t>(s.channels) +
+                                     static_cast<std::size_t>(number - 1)];
+    };
+    for (int pair = 0; pair < pair_count(s.channels); ++pair) {
       std::size_t i = 0;
-      for (int y = 0; y < overlap.height; ++y) {
-        double* row = plane.ptr<double>(y);
-        for (int x = 0; x < overlap.width; ++x, ++i)
-          row[x] = c < 0 ? overlap.weight[i]
-                         : -2.0 * overlap.weighted[i * static_cast<std::size_t>(s.channels) +
-                                                   static_cast<std::size_t>(c)];
-      }
-      forward(plane, overlap.height);
-      const cv::Mat& image = c < 0 ? part.squares : part.channel[static_cast<std::size_t>(c)];
-      cv::mulSpectrums(image, plane, product, 0, true);
-      total += product;
+      for (int y = 0; y < overlap.height; ++y)
+        for (int x = 0; x < overlap.width; ++x, ++i) {
+          plane.real_row(y)[x] = value(i, 2 * pair);
+          plane.imaginary_row(y)[x] = value(i, 2 * pair + 1);
+        }
+      part.transform.forward(plane, {overlap.width, overlap.height});
+      add_correlation(part.pairs[static_cast<std::size_t>(pair)], plane, total, pair == 0);
     }
     const int high = part.area.height - overlap.height + 1;
     const int wide = part.area.width - overlap.width + 1;
-    cv::dft(total, total, cv::DFT_INVERSE | cv::DFT_SCALE, high);
+    part.transform.inverse(total, {wide, high});
     for (int y = 0; y < high; ++y) {
-      const double* row = total.ptr<double>(y);
+      const double* row = total.real_row(y);
       std::int64_t* values = map.values.data() +
                              static_cast<std::size_t>(part.area.y + y) * static_cast<std::size_t>(map.width) +
                              static_cast<std::size_t>(part.area.x);

@@ -1,9 +1,21 @@
 #include "tilepack/seam/cut_graph.h"
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc/detail/gcgraph.hpp>
+#include <climits>
+#include <opencv2/core/hal/interface.h> // uchar
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+// The solver is a template that asks of OpenCV no more than these two words, so nothing needs to be linked.
+#define CV_Assert(condition)                                                                                 \
+  static_cast<void>((condition) ? 0 : throw std::logic_error("a cut of a graph: " #condition))
+#define MIN(a, b) std::min(a, b)
+#include <opencv2/imgproc/detail/gcgraph.hpp>
+#undef CV_Assert
+#undef MIN
 
 namespace tilepack {
 
