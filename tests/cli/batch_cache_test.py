@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from batch_test import Batch
-from command import TILEPACK
+from command import SOURCE, TILEPACK
 
 
 class Cache(Batch):
@@ -98,6 +98,41 @@ class Cache(Batch):
         self.assertEqual(len(self.cached()), 3)
         for i in range(1, 4):
             self.assertEqual(*({os.path.basename(n): d for n, d in self.contents(f"w{k}/packs/a").items()} for k in (0, i)))
+
+    def test_a_share_that_fails_now_and_then(self):
+        """A stand-in for NFS: handles go stale, disks are full, answers get lost; three machines write at once."""
+        faults = self.path("share_faults.so")
+        source = os.path.join(SOURCE, "tests", "cli", "share_faults.c")
+        if os.environ.get("TILEPACK_SANITIZED") == "1":
+            self.skipTest("the sanitizers must be loaded first")
+        if subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", faults, source, "-ldl"], check=False).returncode:
+            self.skip("there is no compiler of C")
+        shutil.rmtree(self.path("cache"))
+        for i in range(3):
+            shutil.copytree(self.path("in"), self.path(f"w{i}/in"))
+            self.manifest({"samples": "in/*.png", "output": "packs/{stem}"}, name=f"w{i}/m.json")
+        whole = {f"w{i}/{name}": data for i in range(3) for name, data in self.good.items() if name.startswith("packs/")}
+        warned = restored = 0
+        for seed in range(8):
+            for i in range(3):
+                shutil.rmtree(self.path(f"w{i}/packs"), ignore_errors=True)
+            share = {"LD_PRELOAD": faults, "SHARE_FOLDER": self.path("cache"), "SHARE_SEED": str(seed), "SHARE_ODDS": "50"}
+            runs = [subprocess.Popen([TILEPACK, "batch", f"w{i}/m.json", "--cache", "cache", "--jobs", "1"], cwd=self.folder, text=True,
+                                     env={**os.environ, **share}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) for i in range(3)]
+            for run in runs:
+                told = run.communicate()[0]
+                self.assertEqual(run.returncode, 0, told)
+                warned += told.count("not kept in the cache")
+                restored += told.count(": restored")
+            self.assertEqual({name: data for name, data in self.contents().items() if name in whole}, whole, f"seed {seed}")
+        self.assertGreater(warned, 0)
+        self.assertGreater(restored, 0)
+        # Whatever is called a finished output is one.
+        for i in range(3):
+            shutil.rmtree(self.path(f"w{i}/packs"))
+        before = {file for file in self.cached() if ".unfinished-" not in file}
+        self.counts("w0/m.json", "--cache", "cache")
+        self.assertEqual({file for file in self.cached() if file in before}, before)
 
 
 del Batch  # its tests run where it stands

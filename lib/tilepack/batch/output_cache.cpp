@@ -44,7 +44,7 @@ private:
   int number;
 };
 
-// As many bytes as there are, up to those asked for; -1 if they can't be read.
+// As many bytes as there are, up to those asked for; -1 if they can't be read, for which errno has the reason.
 ssize_t read_some(int descriptor, char* to, std::size_t bytes) {
   std::size_t had = 0;
   while (had < bytes) {
@@ -78,13 +78,19 @@ std::vector<char>& buffer() {
   return bytes;
 }
 
-// Reads one file of an archive and hands its pieces on. False if the archive is damaged or cut short.
+// A share that failed, or on which another machine replaced the file meanwhile: that is no damage.
+struct Unreadable {};
+
+// Reads one file of an archive and hands its pieces on. False if the archive is damaged or cut short. Throws
+// Unreadable.
 bool copy_checked(int from, const CachedOutput::File& file,
                   const std::function<void(std::string_view)>& onward) {
   ContentHasher hasher;
   for (std::uint64_t left = file.size; left > 0;) {
     const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(left, copied_at_a_time));
-    if (read_some(from, buffer().data(), piece) != static_cast<ssize_t>(piece)) return false;
+    const ssize_t had = read_some(from, buffer().data(), piece);
+    if (had < 0) throw Unreadable();
+    if (had != static_cast<ssize_t>(piece)) return false;
     hasher.add({buffer().data(), piece});
     onward({buffer().data(), piece});
     left -= piece;
@@ -140,6 +146,37 @@ bool fits(const CachedOutput& head, const BatchEntry& entry) {
   return head.files.size() == 1 && head.files.front().name == fs::path(entry.output).extension().string();
 }
 
+// More of the archive's start, up to `size` bytes. Throws Unreadable.
+void read_start(int from, std::string& start, std::size_t size) {
+  const std::size_t had = start.size();
+  start.resize(size);
+  const ssize_t more = read_some(from, start.data() + had, size - had);
+  if (more < 0) throw Unreadable();
+  start.resize(had + static_cast<std::size_t>(more));
+}
+
+// False if the archive is damaged. Throws Unreadable, and Error (cannot_write).
+bool restore_output(int from, const BatchEntry& entry, const BuildInputs& inputs) {
+  // The head is small: most are found within the first piece.
+  constexpr std::size_t most_heads = std::size_t{64} << 10;
+  std::string start;
+  read_start(from, start, most_heads);
+  std::optional<CachedOutput> head = parsed_cache_head(start);
+  if (!head && start.size() == most_heads) {
+    read_start(from, start, longest_head);
+    head = parsed_cache_head(start);
+  }
+  if (!head || !fits(*head, entry) || ::lseek(from, static_cast<off_t>(head->head_size), SEEK_SET) < 0)
+    return false;
+  BuildRecord record{inputs, {}};
+  for (const CachedOutput::File& one : head->files) record.outputs.push_back({one.name, one.hash});
+  if (entry.verb->output == BatchOutput::pack) return restore_pack(from, *head, entry, record);
+  record.outputs.front().name = fs::path(entry.output).filename().string();
+  if (!restore_file(from, *head, entry)) return false;
+  write_record(entry, record);
+  return true;
+}
+
 } // namespace
 
 std::string OutputCache::file_of(const ContentHash& key) const {
@@ -151,32 +188,16 @@ bool OutputCache::restore(const ContentHash& key, const BatchEntry& entry, const
   const std::string file = file_of(key);
   const Descriptor from(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   if (from.get() < 0) return false;
-  // The head is small: most are found within the first piece.
-  std::string start(64 << 10, '\0');
-  ssize_t had = read_some(from.get(), start.data(), start.size());
-  std::optional<CachedOutput> head =
-      had < 0 ? std::nullopt : parsed_cache_head({start.data(), static_cast<std::size_t>(had)});
-  if (!head && had == static_cast<ssize_t>(start.size())) {
-    start.resize(longest_head);
-    had += std::max<ssize_t>(
-        0, read_some(from.get(), start.data() + had, start.size() - static_cast<std::size_t>(had)));
-    head = parsed_cache_head({start.data(), static_cast<std::size_t>(had)});
+  try {
+    if (restore_output(from.get(), entry, inputs)) {
+      ::futimens(from.get(), nullptr); // used just now
+      return true;
+    }
+  } catch (const Unreadable&) {
+    return false;
   }
-  bool good =
-      head && fits(*head, entry) && ::lseek(from.get(), static_cast<off_t>(head->head_size), SEEK_SET) >= 0;
-  if (good) {
-    const bool is_pack = entry.verb->output == BatchOutput::pack;
-    BuildRecord record{inputs, {}};
-    for (const CachedOutput::File& one : head->files) record.outputs.push_back({one.name, one.hash});
-    if (!is_pack) record.outputs.front().name = fs::path(entry.output).filename().string();
-    good = is_pack ? restore_pack(from.get(), *head, entry, record) : restore_file(from.get(), *head, entry);
-    if (good && !is_pack) write_record(entry, record);
-  }
-  if (good)
-    ::futimens(from.get(), nullptr); // used just now
-  else
-    ::unlink(file.c_str()); // to be made again
-  return good;
+  ::unlink(file.c_str()); // to be made again
+  return false;
 }
 
 void OutputCache::keep(const ContentHash& key, const BatchEntry& entry,
