@@ -37,8 +37,14 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE}/samples/example -B ${WORK}/example -D
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_FLAGS=${FLAGS} -D CMAKE_BUILD_TYPE=${BUILD_TYPE})
 run(${CMAKE_COMMAND} --build ${WORK}/example)
 
-# What only looks packs up links no part of what makes them.
+# Libraries that take long to load are not among those that are loaded at every start.
 find_program(READELF readelf REQUIRED)
+run(${READELF} -d ${WORK}/moved/bin/tilepack)
+if(output MATCHES "NEEDED[^\n]*(opencv|hwy|OpenImageIO)" OR NOT output MATCHES "NEEDED")
+  message(FATAL_ERROR "tilepack links\n${output}")
+endif()
+
+# What only looks packs up links no part of what makes them.
 run(${READELF} -d ${WORK}/example/look_up)
 if(output MATCHES "NEEDED[^\n]*opencv" OR NOT output MATCHES "NEEDED")
   message(FATAL_ERROR "look_up links\n${output}")

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_head = std::size_t{16} << 20;
-constexpr std::size_t copied_at_a_time = std::size_t{512} << 10;
+constexpr std::size_t copied_at_a_time = std::size_t{128} << 10;
 constexpr std::int64_t unfinished_seconds = 3600; // nobody writes one output for so long
 
 class Descriptor {
