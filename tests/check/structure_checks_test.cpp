@@ -190,6 +190,33 @@ TEST_CASE("mips that promise nothing about borders are not held to it") {
   CHECK(check_texels(pack).empty());
 }
 
+TEST_CASE("border texels of fitted levels are fitted again") {
+  for (const Depth depth : {Depth::u8, Depth::u16, Depth::f32})
+    for (const int guard : {1, 2}) {
+      Pack pack = good_pack({.guard = guard, .mips = MipMode::least_squares, .depth = depth});
+      CHECK(listing(check_structure(pack)) == "");
+      float& value = texel(pack, 3, 9, 1, 0)[2];
+      const float was = value;
+      value = quantised(was > 0.5f ? was - 0.04f : was + 0.04f, depth);
+      const auto issues = check_fitted_borders(pack);
+      REQUIRE(issues.size() == 1);
+      CHECK(issues[0].rule == Rule::fitted_border);
+      CHECK(issues[0].where == "map color, level 3, tile 9");
+      value = was;
+      pack.jump_weight = 100; // another fit
+      CHECK(has(check_fitted_borders(pack), Rule::fitted_border));
+      pack.jump_weight.reset(); // of a pack that does not tell, nothing is asked
+      CHECK(check_fitted_borders(pack).empty());
+    }
+}
+
+TEST_CASE("a fit is not asked of packs with other faults") {
+  Pack pack = good_pack({.guard = 1, .mips = MipMode::least_squares});
+  texel(pack, 0, 9, 7, 7)[0] = std::numeric_limits<float>::quiet_NaN();
+  edges(pack)[3].west = 7;
+  CHECK(check_fitted_borders(pack).empty());
+}
+
 TEST_CASE("sanitized corners are checked when promised") {
   Pack pack = good_pack();
   pack.mip_mode = MipMode::corners;

@@ -64,7 +64,6 @@ TEST_CASE("of a sample that is nothing but lines all parts show the same ones") 
   lines.lines = 512;
   const PeriodAlignment fixed({none, lines}, {128, 128});
   CHECK_FALSE(fixed.free());
-  CHECK(fixed.has_fixed_lines());
   CHECK(PeriodAlignment({none, lines}, {300, 300}).free()); // too few to choose from
   const PeriodAlignment anywhere = fixed.through({77, 5});
   CHECK(anywhere.allows({3, 192}, 1));

@@ -68,6 +68,7 @@ inline Pack good_pack(const GoodPackOptions& options = {}) {
   pack.tiles = tiles;
   pack.layout = tile_index_layout(tiles);
   pack.mip_mode = options.mips;
+  if (options.mips == MipMode::least_squares) pack.jump_weight = MipOptions{}.jump_weight;
   pack.guard = options.guard;
   pack.tile_levels = options.mips == MipMode::none ? 1 : level_count(options.tile);
   PackedMap map{"color", Role::color, Encoding::srgb, options.depth, options.channels, {}};
@@ -79,7 +80,7 @@ inline Pack good_pack(const GoodPackOptions& options = {}) {
   for (int id = 0; id < tile_count(pack.tiles); ++id)
     set.maps[0].tiles.push_back(
         noise_tile(tiles[id], id, options.tile, options.guard, options.channels, options.depth));
-  for (const TileMap& level : mip_chain(set, 0, {.mode = options.mips}))
+  for (const TileMap& level : mip_chain(set, 0, {.mode = options.mips}, &pack.layout))
     map.levels.push_back(quantised(atlas(level.tiles, pack.layout), options.depth));
   pack.maps.push_back(map);
   pack.mapping.kind = MappingKind::permutation;

@@ -6,13 +6,23 @@ using namespace tilepack;
 
 TEST_CASE("strips reach as far as what a sample shows is large, within bounds") {
   const FramedSetSettings plain = settings_for(5, 1);
-  const auto reach = [&](double scale) { return fitted(plain, scale, 1000, {128, 160}, false).reach; };
+  const auto reach = [&](double scale) { return fitted(plain, scale, 1000, {128, 160}, {}).reach; };
   CHECK(reach(1.0) == plain.reach);
   CHECK(reach(6.4) == Approx(0.25));
   CHECK(reach(32.0) == plain.longest_reach);
-  CHECK(fitted(plain, 32.0, 1000, {128, 128}, true).reach == plain.longest_reach_in_step);
+  const auto with_periods = [&](double x, double y) {
+    Periodicity periods;
+    periods.x.length = x;
+    periods.y.length = y;
+    return fitted(plain, 32.0, 5000, {128, 128}, PeriodAlignment(periods, {128, 128}));
+  };
+  CHECK(with_periods(0, 64).reach == plain.longest_reach_in_step);
+  CHECK(with_periods(64, 32).reach == Approx(1.4 * 32 / 128)); // half a brick and some room
+  CHECK(with_periods(128, 32).reach == plain.longest_reach_of_lattice);
+  CHECK(with_periods(8, 8).reach == plain.longest_reach_in_step);
+  CHECK(with_periods(64, 32).interiors.bias < with_periods(0, 64).interiors.bias);
   for (const double scale : {1.0, 4.0, 8.0, 32.0}) {
-    const FramedSetSettings settings = fitted(plain, scale, 1000, {128, 128}, false);
+    const FramedSetSettings settings = fitted(plain, scale, 1000, {128, 128}, {});
     CHECK(settings.corner_reach >= plain.corner_reach);
     CHECK(settings.corner_reach >= settings.reach);
     CHECK(settings.corner_reach <= 0.5); // of the tile
@@ -21,9 +31,9 @@ TEST_CASE("strips reach as far as what a sample shows is large, within bounds") 
 
 TEST_CASE("cuts are drawn outward the more, the more a sample varies") {
   const FramedSetSettings plain = settings_for(5, 1);
-  CHECK(fitted(plain, 5.0, 0, {128, 128}, false).interiors.bias == plain.interiors.bias);
-  CHECK(fitted(plain, 5.0, 5000, {128, 128}, false).interiors.bias == 400);
-  CHECK(fitted(plain, 5.0, 5000, {128, 128}, false).set_repair.price == 400);
+  CHECK(fitted(plain, 5.0, 0, {128, 128}, {}).interiors.bias == plain.interiors.bias);
+  CHECK(fitted(plain, 5.0, 5000, {128, 128}, {}).interiors.bias == 400);
+  CHECK(fitted(plain, 5.0, 5000, {128, 128}, {}).set_repair.price == 400);
 }
 
 TEST_CASE("no effort does less than the one before it") {

@@ -1,6 +1,7 @@
 #include "support/samples.h"
 
 #include "tilepack/image/image.h"
+#include "tilepack/numeric/random.h"
 #include "tilepack/synth/framed_set.h"
 #include "tilepack/synth/set_report.h"
 #include "tilepack/synth/synthesize.h"
@@ -204,4 +205,44 @@ TEST_CASE("a set made of a large sample is varied") {
   const double varied = set_report(sample, set).figures.distinct_tiles;
   INFO("as varied as " << varied << " tiles");
   CHECK(varied > 6.0);
+}
+
+TEST_CASE("bricks of different tones are not cut in two") {
+  constexpr int brick = 32, course = 16, joint = 4;
+  constexpr float mortar = 0.58f;
+  Image wall(256, 256, 3);
+  for (int y = 0; y < wall.height(); ++y)
+    for (int x = 0; x < wall.width(); ++x) {
+      const int row = y / course;
+      const int shifted = x + (row % 2) * brick / 2;
+      const bool in_joint = y % course < joint || shifted % brick < joint;
+      const auto tone = static_cast<float>(random_below(
+          1, "tone", static_cast<std::uint64_t>(100 * row + shifted / brick), 50)); // of 255, from 20 to 69
+      std::ranges::fill(wall.texel(x, y), in_joint ? mortar : (20 + tone) / 255);
+    }
+  const SampleMap map = testing::color_map(wall);
+  int cut = 0, texels = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SynthOptions options = framing({64, 64}, Coloring::corner, {2, 2, 2});
+    options.seed = seed;
+    const SourceMap set = synthesize(std::span(&map, 1), options);
+    // In the wall two bricks never lie side by side without a joint.
+    for (const auto& tile : set.texels) {
+      const auto value = [&](int x, int y) {
+        const SourceTexel from = tile[static_cast<std::size_t>(y * 64 + x)];
+        return wall.texel(from.x, from.y)[0];
+      };
+      const auto cuts = [&](float a, float b) {
+        return a != mortar && b != mortar && std::abs(a - b) > 10.0f / 255;
+      };
+      for (int y = 0; y + 1 < 64; ++y)
+        for (int x = 0; x + 1 < 64; ++x) {
+          cut += cuts(value(x, y), value(x + 1, y)) + cuts(value(x, y), value(x, y + 1));
+          ++texels;
+        }
+    }
+  }
+  CAPTURE(cut, texels);
+  CHECK(cut * 150 <
+        texels); // twice as many where strips are shorter than half a brick and borders lie anywhere
 }

@@ -183,6 +183,7 @@ Pack packed(TileSet set, const PackingPlan& plan, std::uint64_t seed, const Prog
   pack.layout = plan.layout;
   pack.mapping = mapping_for(plan, set, seed);
   pack.mip_mode = options.mips.mode;
+  if (pack.mip_mode == MipMode::least_squares) pack.jump_weight = options.mips.jump_weight;
   pack.guard = set.guard;
   const int maps = static_cast<int>(set.maps.size());
   if (options.corner_pack) {

@@ -25,6 +25,8 @@ bool is_grid(const Pack& pack) {
 Pack with_mips(const Pack& pack, int map, MipMode mode) {
   Pack result = pack;
   result.mip_mode = mode;
+  result.jump_weight =
+      mode == MipMode::least_squares ? std::optional(MipOptions{}.jump_weight) : std::nullopt;
   PackedMap& packed = result.maps[static_cast<std::size_t>(map)];
   const std::size_t stored = packed.levels.size();
   const auto chain = mip_chain(tile_set_of(pack), map, {mode}, &pack.layout);

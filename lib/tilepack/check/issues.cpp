@@ -100,6 +100,10 @@ const auto& rule_table() {
                "the texels round a layer are not those of tiles that may lie there",
                "Filters show a seam along the tile's border.",
                "Undo the edit of that layer or of the tiles beside it, or bake again."},
+      RuleText{Rule::fitted_border, error, "at a coarser level, border texels are not the fitted ones",
+               "A line between tiles shows from a distance.",
+               "Undo the edit of that level, or pack the tiles again with " + field("mips", "least-squares") +
+                   "."},
 
       RuleText{Rule::table_not_permutation, error, "the hash table is no permutation of 0 to n-1",
                "Some colors come up too often, others never.", bake_again},

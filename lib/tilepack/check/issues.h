@@ -61,6 +61,7 @@ enum class Rule : int {
   sanitized_corners = 406,
   edge_texels_unpromised = 407,
   layer_border = 408,
+  fitted_border = 409,
 
   table_not_permutation = 501,
   table_repeats_rows = 502,

@@ -42,6 +42,12 @@ std::vector<Issue> check_layer_borders(const Pack& pack);
 /// differences beyond the steps between a tile's own texels count.
 std::vector<Issue> check_chain(const Pack& pack);
 
+/// Mips fitted by least squares (mip/least_squares.h), which promise no equal texels: the outermost ring of each
+/// level against what the same fit of level 0 gives (TP409). Maps whose levels are made from level 0 alone:
+/// without alpha, normals or roughness. Layouts that turn no tile; packs that hold the weight of the fit and
+/// have no fault of tiles or layout.
+std::vector<Issue> check_fitted_borders(const Pack& pack);
+
 /// All of these, in this order.
 std::vector<Issue> check_structure(const Pack& pack);
 

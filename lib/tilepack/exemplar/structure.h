@@ -25,7 +25,8 @@ struct StructureOptions {
 /// middle of one stone does not pass for the edge of another, and a cut between two stones runs where both
 /// have their gaps [LH06].
 ///
-/// Strong are the edges of the tenth of all texels at which the smoothed color changes most. Where that is a
+/// Strong are the edges of the tenth of all texels at which the smoothed color changes most, or of more where most
+/// texels are flat and the rest stand out from them, as joints in a drawn wall. Where that is a
 /// matter of grains, no texel is far from an edge, and the channel says next to nothing, as it should.
 ///
 /// An image with max_feature_channels channels is returned as it is.

@@ -4,6 +4,8 @@
 #include "tilepack/match/patch_search.h"
 #include "tilepack/tileset/source_map.h"
 
+#include <algorithm>
+
 namespace tilepack {
 
 /// Keeps the parts of a set in step with a sample that repeats.
@@ -32,8 +34,10 @@ public:
 
   bool free() const { return x.free() && y.free(); }
 
-  /// Whether lines are fixed along an axis, which then holds for the first part too.
-  bool has_fixed_lines() const { return x.fixed || y.fixed; }
+  /// Of a sample that repeats along both axes, as bricks and paving do, the longer of the two periods, texels; else 0.
+  double lattice_period() const {
+    return x.period > 0 && y.period > 0 ? std::max(x.period, y.period) : 0.0;
+  }
 
   /// Whether a part that puts `texel` at a tile's north-west texel is in step: within half a step of a search
   /// that tries every `step`-th texel, and, where courses waver, in any case within a texel or a sixty-fourth of

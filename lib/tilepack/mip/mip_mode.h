@@ -24,7 +24,7 @@ inline constexpr auto enum_names<MipMode> =
                EnumName{MipMode::least_squares, "least-squares"}};
 
 struct MipOptions {
-  MipMode mode = MipMode::edges;
+  MipMode mode = MipMode::least_squares; ///< the least error and jump together, by ERRORS.md
   int jump_weight = 4; ///< least_squares: cost of a jump across a border against that of an error, 0..1000
   bool roughness_from_normals = true; ///< roughness takes up the spread of normals that a level averages
   int alpha_coverage = 0; ///< keep the share of texels whose alpha reaches this many percent; 0: don't

@@ -82,7 +82,8 @@ struct Pack {
   std::vector<PackedMap> maps;
   Mapping mapping;
   std::optional<CornerPack> corner_pack;
-  MipMode mip_mode = MipMode::edges;
+  MipMode mip_mode = MipOptions{}.mode;
+  std::optional<int> jump_weight; ///< least_squares: MipOptions::jump_weight, where it was recorded
   int guard = 0;
   int tile_levels = 0;     ///< number of levels of tiles, level 0 counted
   bool full_chain = false; ///< maps have far levels after those, down to one texel

@@ -346,12 +346,17 @@ void check_complete(const JsonCursor& list, const TileColors& tiles, const Color
 }
 
 void read_mips(const JsonCursor& value, Pack& pack) {
-  value.only({"filter", "sanitize", "guard", "tile_levels", "full_chain"});
+  value.only({"filter", "sanitize", "jump_weight", "guard", "tile_levels", "full_chain"});
   const bool box = value.member("filter").one_of({"none", "box"}) == 1;
   const JsonCursor sanitize = value.member("sanitize");
   const std::size_t mode = sanitize.one_of({"none", "edges", "corners", "least-squares"});
   if (!box && mode != 0) sanitize.fail(fmt::format("is {} though \"filter\" is \"none\"", sanitize.shown()));
   pack.mip_mode = box ? static_cast<MipMode>(mode + 1) : MipMode::none;
+  if (const auto weight = value.find("jump_weight")) {
+    if (pack.mip_mode != MipMode::least_squares)
+      weight->fail(fmt::format("is there though \"sanitize\" is {}", sanitize.shown()));
+    pack.jump_weight = weight->small_integer(0, 1000);
+  }
   pack.guard = value.member("guard").small_integer(0, std::max(pack.tile_size.width, pack.tile_size.height));
   pack.tile_levels =
       value.member("tile_levels")

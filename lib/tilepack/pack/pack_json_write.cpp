@@ -124,7 +124,7 @@ JsonValue mapping_json(const Mapping& mapping, const std::string& index_file) {
     json["seed"] = mapping.seed;
     json["pattern"] = digits_json(mapping.table);
     if (!mapping.variants.empty()) json["variants"] = digits_json(mapping.variants);
-      break;
+    break;
   case MappingKind::index:
     json["file"] = index_file;
     break;
@@ -150,6 +150,7 @@ JsonValue mips_json(const Pack& pack) {
                  {"sanitize", sanitized ? name_of(pack.mip_mode) : "none"},
                  {"guard", pack.guard},
                  {"tile_levels", pack.tile_levels}};
+  if (pack.jump_weight) json["jump_weight"] = *pack.jump_weight;
   if (pack.full_chain) json["full_chain"] = true;
   return json;
 }
@@ -207,6 +208,7 @@ PackDescription described(const Pack& pack) {
   bare.mapping = {pack.mapping.kind,    pack.mapping.size, pack.mapping.table, pack.mapping.seed, {},
                   pack.mapping.variants};
   bare.mip_mode = pack.mip_mode;
+  bare.jump_weight = pack.jump_weight;
   bare.guard = pack.guard;
   bare.tile_levels = pack.tile_levels;
   bare.materials = pack.materials;

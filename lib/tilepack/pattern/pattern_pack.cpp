@@ -36,6 +36,7 @@ Pack from_level(const Pack& pack, const PackRequest& request) {
   part.layout.rotated.gutter >>= first;
   part.mapping = pack.mapping;
   part.mip_mode = pack.mip_mode;
+  part.jump_weight = pack.jump_weight;
   part.guard = pack.guard >> first;
   part.tile_levels = pack.tile_levels - first;
   part.maps.push_back(coarse_part(map, first));

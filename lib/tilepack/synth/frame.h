@@ -36,7 +36,7 @@ struct FrameShape {
   int reach = 2;        ///< guard < reach <= half the tile
   int corner_reach = 2; ///< reach <= corner_reach <= half the tile
   int corners = 1;
-  PeriodAlignment alignment; ///< of the whole periods that a tile holds
+  PeriodAlignment alignment; ///< of the whole periods that a tile holds, and of the lines that borders lie on
   std::vector<Strip> horizontal;
   std::vector<Strip> vertical;
   std::vector<Tile> tiles; ///< by tile id
@@ -51,7 +51,7 @@ FrameShape halved(const FrameShape& shape, int times);
 
 /// Where the frame's parts are taken from.
 struct FrameSources {
-  PeriodAlignment alignment;        ///< all parts are in step with the first corner patch
+  PeriodAlignment alignment;        ///< all parts are in step with it
   std::vector<SourceTexel> corners; ///< the texel south-east of the lattice point
   std::vector<SourceTexel>
       horizontal; ///< north-west texel of a window of tile.width × 2 reach, edge in the middle

@@ -96,7 +96,7 @@ FrameProblem problem_of(const SearchSpace& space, const FrameSearchOptions& opti
 
 struct CornerPatches {
   std::vector<SourceTexel> places; // as in FrameSources
-  PeriodAlignment alignment;       // with the first of them
+  PeriodAlignment alignment;       // of all of them, and of what joins them
 };
 
 // The place of a corner patch nearest to this one that is in step with the first.
@@ -126,11 +126,10 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
                           most_trials = 16; // numbers of random choices are packed by these
   const FrameShape& shape = space.small_shape;
   const FeatureImage& image = space.small_image();
-  const int scale = space.scale();
   const int margin = std::max(shape.reach, shape.corner_reach);
   const auto range_x = static_cast<std::uint32_t>(std::max(1, image.width - 2 * margin + 1));
   const auto range_y = static_cast<std::uint32_t>(std::max(1, image.height - 2 * margin + 1));
-  CornerPatches corners;
+  CornerPatches corners{{}, shape.alignment};
   for (int corner = 0; corner < shape.corners; ++corner) {
     SourceTexel best{};
     double least_excess = std::numeric_limits<double>::max();
@@ -140,10 +139,7 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
                                   static_cast<std::uint64_t>(trial);
       SourceTexel at{margin + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
                      margin + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
-      if (corner > 0)
-        at = in_step(space, corners.alignment, at, margin);
-      else if (shape.alignment.has_fixed_lines())
-        at = in_step(space, shape.alignment, at, margin);
+      if (!shape.alignment.free()) at = in_step(space, shape.alignment, at, margin);
       int distance = std::numeric_limits<int>::max();
       for (const SourceTexel& other : corners.places)
         distance = std::min(distance, std::abs(at.x - other.x) + std::abs(at.y - other.y));
@@ -155,7 +151,6 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
       }
     }
     corners.places.push_back(best);
-    if (corner == 0) corners.alignment = shape.alignment.through({best.x * scale, best.y * scale});
   }
   return corners;
 }

@@ -1,5 +1,6 @@
 #include "tilepack/synth/framed_set.h"
 
+#include "tilepack/exemplar/cheapest_lines.h"
 #include "tilepack/exemplar/object_scale.h"
 #include "tilepack/exemplar/structure.h"
 #include "tilepack/match/use_counts.h"
@@ -195,9 +196,11 @@ SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
                      const FramedSetSettings& wanted_settings, const Progress& progress) {
   const FramedSetSettings settings =
       fitted(wanted_settings, object_scale(sample.features), variance_of(sample.features), options.tile_size,
-             !PeriodAlignment(sample.periods, options.tile_size).free());
-  const FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
+             PeriodAlignment(sample.periods, options.tile_size));
   const FeatureImage image = with_structure(sample.features, settings.structure);
+  FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
+  if (!shape.alignment.free())
+    shape.alignment = shape.alignment.through(cheapest_lines(image, sample.periods));
   const SearchSpace space(sample, shape, searched_pyramid(image, shape.tile, settings),
                           settings.most_searched_texels);
   const MatchLevels levels(space.pyramid, settings);

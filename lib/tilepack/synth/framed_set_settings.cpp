@@ -71,15 +71,20 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
 }
 
 FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile,
-                         bool in_step) {
+                         const PeriodAlignment& alignment) {
   const double side = std::min(tile.width, tile.height);
+  const double lattice = alignment.lattice_period();
   const double wanted = settings.reach_of_scale * object_scale / side;
-  settings.reach =
-      std::clamp(wanted, settings.reach, in_step ? settings.longest_reach_in_step : settings.longest_reach);
+  if (lattice > 0)
+    settings.reach = std::clamp(settings.reach_of_half_period * lattice / 2 / side,
+                                settings.longest_reach_in_step, settings.longest_reach_of_lattice);
+  else
+    settings.reach = std::clamp(wanted, settings.reach,
+                                alignment.free() ? settings.longest_reach : settings.longest_reach_in_step);
   settings.corner_reach = std::max(settings.corner_reach, settings.reach * settings.corner_reach_of_reach);
+  const double share = lattice > 0 ? settings.bias_of_variance_of_lattice : settings.bias_of_variance;
   settings.interiors.bias = std::max<std::int64_t>(
-      settings.interiors.bias,
-      static_cast<std::int64_t>(settings.bias_of_variance * static_cast<double>(variance)));
+      settings.interiors.bias, static_cast<std::int64_t>(share * static_cast<double>(variance)));
   settings.set_repair.price =
       static_cast<std::int64_t>(settings.price_of_bias * static_cast<double>(settings.interiors.bias));
   return settings;

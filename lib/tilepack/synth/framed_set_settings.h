@@ -2,6 +2,7 @@
 
 #include "tilepack/exemplar/structure.h"
 #include "tilepack/image/image.h"
+#include "tilepack/match/period_alignment.h"
 #include "tilepack/seam/patch_match.h"
 #include "tilepack/seam/seam_repair.h"
 #include "tilepack/synth/set_repair.h"
@@ -125,9 +126,14 @@ struct FramedSetSettings {
   double reach = 0.125;
   /// And at most. 0.3 instead shows 0.3 windows more, at 3 joins more. (j)
   double longest_reach = 0.375;
-  /// The same where tiles hold whole periods of the sample (PeriodAlignment): parts in step join well anyway, and
-  /// wide strips show less of the sample. (q; bricks of tests/quality)
+  /// The same where tiles hold whole periods of the sample along one axis (PeriodAlignment): parts in step join well
+  /// anyway, and wide strips show less of the sample. (q; planks of tests/quality)
   double longest_reach_in_step = 0.2;
+  /// Where they do along both, so many times half the longer period, and at least as much as that: a cut that goes
+  /// round bricks, which are laid by half, goes along a joint for half a brick from each course to the next, and wants
+  /// some room to choose. By eye, at bricks of different tones, which shorter strips cut in two.
+  double reach_of_half_period = 1.4;
+  double longest_reach_of_lattice = 0.45; ///< and at most: what is left to insides alone is never nothing
   /// Between the two the reach is so many times object_scale(): what is seen as one object is about 4 scales
   /// wide, and a cut has to find a way round it; a fourth more is room to choose. Scales are 3.6 (cracked
   /// asphalt), 3.8 (gravel) … 4.9 (bark), 6.9 (leaves), 9.9 (cracked mud), 10.6 (stone wall), 14.5 (pebbles), 21.5
@@ -140,6 +146,9 @@ struct FramedSetSettings {
   /// InteriorOptions::bias as a share of the sample's variance (variance_of): more of it shows more of the sample, at
   /// the price of hairlines. (j)
   double bias_of_variance = 0.08;
+  /// The same where tiles hold whole periods along both axes: the variance is that of joints, in which all parts agree,
+  /// and a bias by it would rather cut bricks in two than go round them.
+  double bias_of_variance_of_lattice = 0.0;
   /// SetRepairOptions::price as a share of that bias: what tiles share should not grow where little is mended. (j)
   double price_of_bias = 1.0;
   int smallest_search_tile =
@@ -166,8 +175,8 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed);
 
 /// The settings for a sample of this object_scale() and variance_of(), and this tile size: strips reach so far that
 /// a cut can go round what the sample shows, and cuts are drawn outward so strongly that insides show as much as
-/// they can. `in_step`: tiles hold whole periods of the sample.
+/// they can. `alignment`: of the whole periods that tiles hold.
 FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile,
-                         bool in_step);
+                         const PeriodAlignment& alignment);
 
 } // namespace tilepack
