@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
 
 using namespace tilepack;
 
@@ -89,4 +93,52 @@ TEST_CASE("an image with all channels gets none of structure") {
   FeatureImage full{8, 8, max_feature_channels, {}};
   full.values.resize(64 * max_feature_channels);
   CHECK(with_structure(full).channels == max_feature_channels);
+}
+
+TEST_CASE("distances and sensitivities are those of the definition, for images of many bands too") {
+  FeatureImage image{37, 300, 2, {}};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 2; ++c)
+        image.values.push_back(
+            static_cast<std::uint8_t>((x / 5 * 37 + y / 9 * 61 + (y % 7 == 0 ? x * x : 0)) % 200 + c));
+  const FeatureImage seen = with_structure(image);
+  const auto clamped = [](int v, int end) { return std::clamp(v, 0, end - 1); };
+  std::vector<double> inverse;
+  double mean = 0, all = 0;
+  std::vector<std::int64_t> steps;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      steps.push_back(squared_difference(image.texel(x, y), image.texel(clamped(x + 1, image.width), y), 2) +
+                      squared_difference(image.texel(x, y), image.texel(x, clamped(y + 1, image.height)), 2));
+      mean += static_cast<double>(steps.back());
+    }
+  mean /= static_cast<double>(steps.size());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      std::int64_t sum = 0, count = 0;
+      for (int j = std::max(0, y - 3); j < std::min(image.height, y + 4); ++j)
+        for (int i = std::max(0, x - 3); i < std::min(image.width, x + 4); ++i, ++count)
+          sum += steps[static_cast<std::size_t>(j * image.width + i)];
+      inverse.push_back(mean / (0.6 * mean + static_cast<double>(sum) / static_cast<double>(count)));
+      all += inverse.back();
+    }
+  int off = 0;
+  for (std::size_t i = 0; i < inverse.size(); ++i)
+    off +=
+        std::abs(seen.sensitivity[i] - 32 * inverse[i] / (all / static_cast<double>(inverse.size()))) > 0.51;
+  CHECK(off == 0);
+  // Neighbours differ by a step of the distance at most, and a texel next to an edge is a step from it.
+  int jumps = 0, edges = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const int d = seen.texel(x, y)[2];
+      edges += d == 0;
+      if (x + 1 < image.width) jumps += std::abs(d - seen.texel(x + 1, y)[2]) > 22;
+      if (y + 1 < image.height) jumps += std::abs(d - seen.texel(x, y + 1)[2]) > 22;
+      if (x + 1 < image.width && y + 1 < image.height)
+        jumps += std::abs(d - seen.texel(x + 1, y + 1)[2]) > 31;
+    }
+  CHECK(jumps == 0);
+  CHECK(edges > 0);
 }

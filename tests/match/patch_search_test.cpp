@@ -50,7 +50,8 @@ TEST_CASE("a patch taken from the image is found where it was taken") {
     for (int x = 0; x < 12; ++x) overlap.add(x, y, image.texel(31 + x, 17 + y));
   const PositionMap map = PatchSearch(image).mismatches(overlap);
   CHECK(map.at(31, 17) == 0);
-  CHECK(std::count(map.values.begin(), map.values.end(), 0) == 1);
+  REQUIRE(map.parts.size() == 1);
+  CHECK(std::count(map.parts[0].values.begin(), map.parts[0].values.end(), 0) == 1);
 }
 
 TEST_CASE("of a large image four parts are searched, and what is found there is what a full search finds") {
@@ -59,22 +60,29 @@ TEST_CASE("of a large image four parts are searched, and what is found there is 
   for (int y = 0; y < 12; ++y)
     for (int x = 0; x < 20; ++x) overlap.add(x, y, image.texel(40 + x, 30 + y));
   const PositionMap all = PatchSearch(image).mismatches(overlap);
-  const PositionMap parts = PatchSearch(image, {20, 12}, 8'000).mismatches(overlap);
+  PositionMap parts = PatchSearch(image, {20, 12}, 8'000).mismatches(overlap);
   REQUIRE((parts.width == all.width && parts.height == all.height));
   // 8000 of 32000 texels: a half of each side, in two parts.
   std::size_t open = 0;
   bool equal = true;
-  for (std::size_t i = 0; i < all.values.size(); ++i) {
-    if (parts.values[i] == ruled_out) continue;
+  parts.for_each([&](int x, int y, std::int64_t& value) {
     ++open;
-    equal = equal && parts.values[i] == all.values[i];
-  }
+    equal = equal && value == all.at(x, y) && value == parts.at(x, y);
+  });
   CHECK(equal);
   CHECK(open == 4 * (50 - 20 + 1) * (40 - 12 + 1));
   CHECK(parts.at(40, 30) == 0);
+  CHECK(parts.at(0, 0) == ruled_out);
+  CHECK(parts.at(90, 30) == ruled_out); // between two parts
   // Small images are searched whole, and parts hold patches of the size asked for with room to choose.
-  CHECK(PatchSearch(image, {20, 12}, 32'000).mismatches(overlap).values == all.values);
-  const PositionMap few = PatchSearch(image, {20, 12}, 1).mismatches(overlap);
-  CHECK(std::count_if(few.values.begin(), few.values.end(), [](std::int64_t v) { return v != ruled_out; }) ==
-        4 * (40 - 20 + 1) * (24 - 12 + 1));
+  CHECK(PatchSearch(image, {20, 12}, 32'000).mismatches(overlap).parts[0].values == all.parts[0].values);
+  const auto positions = [&](Size largest) {
+    std::size_t count = 0;
+    for (const auto& part : PatchSearch(image, largest, 1).mismatches(overlap).parts)
+      count += part.values.size();
+    return count;
+  };
+  CHECK(positions({20, 12}) == 4 * (40 - 20 + 1) * (24 - 12 + 1));
+  // Parts that would overlap are one: 200 columns wide, twice 24 rows high.
+  CHECK(positions({60, 12}) == 2 * (200 - 20 + 1) * (24 - 12 + 1));
 }

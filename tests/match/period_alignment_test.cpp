@@ -87,7 +87,7 @@ TEST_CASE("of a map of positions some in every period stay, all of them in step"
     const double period = 21.34;
     const PeriodAlignment alignment =
         PeriodAlignment({{period, 1.0}, {period, 1.0}}, {64, 64}).through({5, 9});
-    PositionMap map{64, 50, std::vector<std::int64_t>(std::size_t{64} * 50, 1)};
+    PositionMap map(64, 50, 1);
     rule_out_of_step(map, alignment, scale);
     std::set<int> columns, rows;
     for (int y = 0; y < map.height; ++y)

@@ -48,3 +48,18 @@ TEST_CASE("blocks of bytes are compared as by the plain sum, for every width") {
     CHECK(difference(static_cast<int>(expected / 2)) >= expected / 2);
   }
 }
+
+TEST_CASE("rows of any length are compared as by the plain sum, and nothing past them is read") {
+  for (const std::size_t width : {0, 1, 63, 64, 65, 127, 128, 1000, 32'768, 70'001}) {
+    std::vector<std::uint8_t> a = bytes(width, 5), b = bytes(width, 6);
+    a.resize(width); // so that sanitizers see what is read past them
+    b.resize(width);
+    a.shrink_to_fit();
+    b.shrink_to_fit();
+    INFO(width << " bytes");
+    CHECK(squared_difference_of_bytes(a.data(), b.data(), width) ==
+          plain_difference(a.data(), b.data(), width));
+  }
+  const std::vector<std::uint8_t> black(40'000, 0), white(40'000, 255); // more than 31 bits
+  CHECK(squared_difference_of_bytes(black.data(), white.data(), 40'000) == std::int64_t{40'000} * 255 * 255);
+}

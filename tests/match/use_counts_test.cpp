@@ -1,6 +1,7 @@
 #include "tilepack/match/use_counts.h"
 
 #include <catch2/catch.hpp>
+#include <utility>
 
 using namespace tilepack;
 
@@ -52,4 +53,16 @@ TEST_CASE("what is added to an area counts as often as its reuse weight says, an
   const UseTable uses = prepared(counts);
   CHECK(uses.mean({0, 0, 2, 2}) == 2.0);
   CHECK(uses.mean({2, 0, 2, 2}) == 8.0);
+}
+
+TEST_CASE("a texel counts its square once, as often as the reuse weight says") {
+  UseCounts one(23, 17, 4), other(23, 17, 4);
+  for (UseCounts* counts : {&one, &other}) counts->set_reuse_weight({4, 4, 8, 8}, 3);
+  for (const auto& [x, y] : {std::pair{0, 0}, {3, 3}, {4, 7}, {22, 16}, {11, 11}}) {
+    one.add_texel(x, y);
+    other.add({x / 4 * 4, y / 4 * 4, 4, 4}, 1.0);
+  }
+  for (int y = 0; y < 17; y += 4)
+    for (int x = 0; x < 23; x += 4)
+      CHECK(prepared(one).mean({x, y, 4, 4}) == prepared(other).mean({x, y, 4, 4}));
 }

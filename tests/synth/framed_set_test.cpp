@@ -115,6 +115,23 @@ TEST_CASE("a framed set depends on the seed, not on the number of threads") {
   CHECK(made(options).texels != many.texels);
 }
 
+TEST_CASE("a set that is searched at a sixteenth of its size comes down scale by scale, the same on one "
+          "thread") {
+  const SampleMap map = testing::color_map(blobs(300, 280));
+  const SampleAnalysis sample = analysed(std::span(&map, 1), Periodicity{});
+  FramedSetSettings settings = settings_for(2, 5);
+  settings.smallest_search_tile = 8; // as of tiles of 512 texels
+  const SynthOptions options = framing({128, 128}, Coloring::corner, {0, 0, 2}, 1);
+  const SourceMap made_so = framed_set(sample, options, settings, {});
+  check_borders(made_so, 1);
+  bool inside = true;
+  for (const auto& tile : made_so.texels)
+    for (const SourceTexel& t : tile) inside = inside && t.x >= 0 && t.y >= 0 && t.x < 300 && t.y < 280;
+  CHECK(inside);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  CHECK(framed_set(sample, options, settings, {}).texels == made_so.texels);
+}
+
 TEST_CASE("each tile's inside is its own") {
   const SourceMap map = made(framing({32, 32}, Coloring::corner, {0, 0, 2, 2}), {160, 160});
   CHECK(map.texels.size() == 32);

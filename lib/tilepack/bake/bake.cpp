@@ -8,10 +8,24 @@
 #include "tilepack/tileset/sequential_set.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace tilepack {
 namespace {
+
+// What synthesis took and freed, the C library keeps until it is told.
+void give_back_unused_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
+constexpr std::int64_t most_texels_side_by_side = 2'000'000; // of the sample
 
 TileColors wanted_tiles(const BakeOptions& o) {
   const ColorCounts& k = o.synth.colors;
@@ -65,9 +79,18 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   result.sample = analysed(samples, periods);
   result.sources = subset(synthesize(result.sample, synth, progress), wanted);
   report(progress, "figures", 0.0);
-  both_side_by_side(
-      [&] { result.report = set_report(result.sample, result.sources, size); },
-      [&] { result.pack = packed(assembled(result.sources, samples), plan, options.synth.seed, progress); });
+  const auto look = [&] { result.report = set_report(result.sample, result.sources, size); };
+  const auto pack = [&] {
+    result.pack = packed(assembled(result.sources, samples), plan, options.synth.seed, progress);
+  };
+  // What a large set takes in memory, it takes one after the other.
+  if (std::int64_t{size.width} * size.height > most_texels_side_by_side) {
+    look();
+    give_back_unused_memory();
+    pack();
+  } else {
+    both_side_by_side(look, pack);
+  }
   result.pack.generator.version = TILEPACK_VERSION;
   result.pack.generator.options = recorded_options(options);
   result.pack.generator.seed = options.synth.seed;

@@ -2,6 +2,7 @@
 
 #include "tilepack/bake/tile_size_choice.h"
 #include "tilepack/exemplar/feature_image.h"
+#include "tilepack/synth/framed_set_settings.h"
 
 #include <algorithm>
 
@@ -10,9 +11,11 @@ namespace {
 
 // Bytes; what each was fitted to stands in the header.
 constexpr double program = 13e6;
-constexpr double a_thread = 3.5e6;
-constexpr double about_a_sample_texel = 7.5;
-constexpr double about_a_tile_texel = 24;
+constexpr double a_thread = 3e6;
+constexpr double about_a_sample_texel = 5;
+constexpr double about_a_searched_texel = 240;
+constexpr double about_a_texel_beyond = 40; // of the level that is searched in parts
+constexpr double about_a_tile_texel = 23;
 constexpr double about_a_float_stored = 32; // what the encoder of EXR holds
 constexpr double about_a_cell = 9;          // of an index map: its ids, and the bytes of index.png
 constexpr double a_float = 4;
@@ -36,6 +39,27 @@ double made_tiles(const BakeOptions& o) {
 double packed_tiles(const BakeOptions& o) {
   const ColorCounts& k = o.synth.colors;
   return o.set == SetKind::sequential ? 2.0 * k.horizontal * k.vertical : made_tiles(o);
+}
+
+// Sets that are stored as they are, each tile given up as it is placed.
+bool placed_one_by_one(const BakeOptions& o) {
+  return o.layout != LayoutKind::rotated && !(o.layout == LayoutKind::array && o.array.border > 0) &&
+         !o.corner_pack && !o.full_mips;
+}
+
+// Maps that are straightened, made even in tone or continued are held beside those that were read; whether a sample
+// asks for it, nothing tells before it is read.
+bool may_hold_copies(const BakeOptions& o) {
+  return o.flatten > 0 || o.fit_flatten || o.straighten || o.wraps == WrapChoice::yes;
+}
+
+// Of the level that is searched.
+double searched_bytes(double sample_texels, Size tile) {
+  const FramedSetSettings settings;
+  for (int side = std::min(tile.width, tile.height); side / 2 >= settings.smallest_search_tile; side /= 2)
+    sample_texels /= 4;
+  const double searched = std::min(sample_texels, static_cast<double>(settings.most_searched_texels));
+  return about_a_searched_texel * searched + about_a_texel_beyond * (sample_texels - searched);
 }
 
 // Texels of the textures of a map's finest level to one texel of its tiles.
@@ -76,12 +100,14 @@ std::int64_t memory_estimate(std::span<const MapShape> maps, const BakeOptions& 
   const double tile_texels =
       static_cast<double>(options.synth.tile_size.width) * options.synth.tile_size.height;
 
-  const double of_sample =
-      channels * a_float * (options.flatten > 0 ? 2 : 1) + features * all_levels + about_a_sample_texel;
-  const double of_tile = channels * a_float * (1 + all_levels * texture_share(options)) +
-                         float_channels * about_a_float_stored + about_a_tile_texel;
+  const double of_sample = channels * a_float * (may_hold_copies(options) ? 2 : 1) + features +
+                           (features + 1) * all_levels + about_a_sample_texel;
+  const double of_tile =
+      channels * a_float * ((placed_one_by_one(options) ? 0 : 1) + all_levels * texture_share(options)) +
+      float_channels * about_a_float_stored + about_a_tile_texel;
   const double sources_left_out = (made_tiles(options) - packed_tiles(options)) * sizeof(std::int32_t) * 2;
   double bytes = program + a_thread * threads + sample_texels * of_sample +
+                 searched_bytes(sample_texels, options.synth.tile_size) +
                  tile_texels * (packed_tiles(options) * of_tile + sources_left_out);
   if (options.mapping == MappingKind::index)
     bytes += about_a_cell * static_cast<double>(options.virtual_size.width) *

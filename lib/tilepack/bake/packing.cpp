@@ -124,6 +124,26 @@ void convert(TileMap& map, const StoredFormat& to) {
   map.depth = to.depth;
 }
 
+// The tiles of a grid in their places, each given up once it is there: sets of large tiles are large.
+Image placed_one_by_one(std::vector<Image> tiles, const Layout& layout) {
+  const Size tile = tiles.front().size();
+  Image texture =
+      Image::unset({layout.columns * tile.width, layout.rows * tile.height}, tiles.front().channels());
+  for (const Cell& cell : layout.cells) {
+    Image& from = tiles[static_cast<std::size_t>(cell.tile)];
+    paste(texture, from, cell.column * tile.width, cell.row * tile.height);
+    from = Image();
+  }
+  return texture;
+}
+
+// Whether that is all there is to it, and every texel is some tile's.
+bool is_plain_grid(const Layout& layout) {
+  return layout.kind != LayoutKind::rotated && layout.border == 0 &&
+         layout.cells.size() ==
+             static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows);
+}
+
 // Levels past those of tiles, for maps that have those: `maps` are the set's in the pack or in its corner pack.
 void add_far_levels(std::vector<PackedMap>& maps, const TileSet& set, const Layout& layout,
                     bool roughness_from_normals, int tile_levels) {
@@ -192,13 +212,20 @@ Pack packed(TileSet set, const PackingPlan& plan, std::uint64_t seed, const Prog
   }
   for (int m = 0; m < maps; ++m) {
     report(progress, "mips", static_cast<double>(m) / maps);
-    const TileMap& finest = set.maps[static_cast<std::size_t>(m)];
-    const std::vector<TileMap> coarser = coarser_levels(set, m, options.mips, &pack.layout);
+    TileMap& finest = set.maps[static_cast<std::size_t>(m)];
+    std::vector<TileMap> coarser = coarser_levels(set, m, options.mips, &pack.layout);
     PackedMap map(finest, finest.tiles.front().channels());
     PackedMap corners = map;
     pack.tile_levels = levels_held(pack.layout, set.tile_size, static_cast<int>(coarser.size()) + 1);
+    // Others may look at normals, and corner packs and far levels at the tiles.
+    const bool done_with = is_plain_grid(pack.layout) && !options.corner_pack && !options.full_mips &&
+                           finest.role != Role::normal;
     for (int level = 0; level < pack.tile_levels; ++level) {
-      const TileMap& tiles = level == 0 ? finest : coarser[static_cast<std::size_t>(level - 1)];
+      TileMap& tiles = level == 0 ? finest : coarser[static_cast<std::size_t>(level - 1)];
+      if (done_with) {
+        map.levels.push_back(quantised(placed_one_by_one(std::move(tiles.tiles), pack.layout), map.depth));
+        continue;
+      }
       map.levels.push_back(quantised(
           place_tiles(tiles, set.tiles, pack.layout, set.tile_size, level, {options.rotated.turn_filter, {}}),
           map.depth));

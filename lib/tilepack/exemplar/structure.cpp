@@ -1,12 +1,13 @@
 #include "tilepack/exemplar/structure.h"
 
-#include "tilepack/numeric/summed_areas.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace tilepack {
@@ -94,41 +95,157 @@ int strong_slope(const std::vector<std::uint16_t>& slope) {
                   std::max(of_share(most_strong_share), static_cast<int>(stands_out)));
 }
 
-// Of each texel the differences from its neighbours in the east and south, summed over a square round it, and against
-// the mean of all squares.
-std::vector<std::uint8_t> sensitivities(const FeatureImage& image, double floor_share) {
-  constexpr int half = 3;
-  const int w = image.width, h = image.height;
-  const auto index = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-  };
-  std::vector<std::int64_t> steps(index(0, h));
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x)
-      steps[index(x, y)] =
-          squared_difference(image.texel(x, y), image.clamped_texel(x + 1, y), image.channels) +
-          squared_difference(image.texel(x, y), image.clamped_texel(x, y + 1), image.channels);
-  SummedAreas<std::int64_t> sums(w, h, [&](int x, int y) { return steps[index(x, y)]; });
-  double mean = 0;
-  for (const auto s : steps) mean += static_cast<double>(s);
-  mean = std::max(1.0, mean / static_cast<double>(steps.size()));
-  std::vector<double> seen(steps.size());
-  double all = 0;
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      const int x0 = std::max(0, x - half), y0 = std::max(0, y - half);
-      const Rect area{x0, y0, std::min(w, x + half + 1) - x0, std::min(h, y + half + 1) - y0};
-      const double own = static_cast<double>(sums.sum(area)) / (area.width * area.height);
-      seen[index(x, y)] = mean / (floor_share * mean + own);
-      all += seen[index(x, y)];
+// Of each texel the differences from its neighbours in the east and south, squared.
+void add_steps(const FeatureImage& image, int y, std::vector<std::int32_t>& steps) {
+  for (int x = 0; x < image.width; ++x)
+    steps[static_cast<std::size_t>(x)] =
+        squared_difference(image.texel(x, y), image.clamped_texel(x + 1, y), image.channels) +
+        squared_difference(image.texel(x, y), image.clamped_texel(x, y + 1), image.channels);
+}
+
+constexpr int sensed_half = 3; // of the square round a texel that tells how busy it is there
+
+// The sums of steps over the square round each texel of a row, cut off at the image's borders. Rows are asked for from
+// the first on, one after the other: so no more than those of a square are held.
+class SquareSums {
+public:
+  SquareSums(const FeatureImage& feature_image, int first_row)
+      : image(feature_image), next(std::max(0, first_row - sensed_half)),
+        columns(static_cast<std::size_t>(image.width)), sums(columns.size()) {
+    for (auto& row : rows) row.resize(columns.size());
+  }
+
+  const std::vector<std::int64_t>& of_row(int y) {
+    for (; next <= std::min(image.height - 1, y + sensed_half); ++next) {
+      std::vector<std::int32_t>& row = rows[static_cast<std::size_t>(next) % rows.size()];
+      for (std::size_t x = 0; x < columns.size(); ++x)
+        columns[x] -= row[x]; // none, or that which leaves the square
+      add_steps(image, next, row);
+      for (std::size_t x = 0; x < columns.size(); ++x) columns[x] += row[x];
     }
-  all /= static_cast<double>(steps.size());
-  std::vector<std::uint8_t> result(steps.size());
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    result[i] =
-        static_cast<std::uint8_t>(std::clamp<long>(std::lround(sensitivity_unit * seen[i] / all), 1, 255));
+    if (y + sensed_half >= image.height && y > sensed_half) { // none comes for the one that leaves
+      std::vector<std::int32_t>& row = rows[static_cast<std::size_t>(y - sensed_half - 1) % rows.size()];
+      for (std::size_t x = 0; x < columns.size(); ++x) columns[x] -= row[x];
+      std::fill(row.begin(), row.end(), 0);
+    }
+    std::int64_t run = 0;
+    const int w = image.width;
+    for (int x = -sensed_half; x < w; ++x) {
+      if (x + sensed_half < w) run += columns[static_cast<std::size_t>(x + sensed_half)];
+      if (x > sensed_half) run -= columns[static_cast<std::size_t>(x - sensed_half - 1)];
+      if (x >= 0) sums[static_cast<std::size_t>(x)] = run;
+    }
+    return sums;
+  }
+
+private:
+  const FeatureImage& image;
+  int next; // row to be added
+  std::array<std::vector<std::int32_t>, 2 * sensed_half + 1> rows;
+  std::vector<std::int64_t> columns; // over the rows of the square
+  std::vector<std::int64_t> sums;
+};
+
+// visit(row, how well differences are seen there, a double a texel), in bands side by side.
+template <class Visit>
+void for_each_seen_row(const FeatureImage& image, double floor_share, double mean, const Visit& visit) {
+  constexpr int band = 128;
+  const int w = image.width, h = image.height;
+  tbb::parallel_for(0, (h + band - 1) / band, [&](int b) {
+    SquareSums squares(image, b * band);
+    std::vector<double> seen(static_cast<std::size_t>(w));
+    for (int y = b * band; y < std::min(h, (b + 1) * band); ++y) {
+      const std::vector<std::int64_t>& sums = squares.of_row(y);
+      const int high = std::min(h, y + sensed_half + 1) - std::max(0, y - sensed_half);
+      for (int x = 0; x < w; ++x) {
+        const int wide = std::min(w, x + sensed_half + 1) - std::max(0, x - sensed_half);
+        const double own = static_cast<double>(sums[static_cast<std::size_t>(x)]) / (wide * high);
+        seen[static_cast<std::size_t>(x)] = mean / (floor_share * mean + own);
+      }
+      visit(y, seen);
+    }
+  });
+}
+
+// Of each texel the steps of the square round it, against the mean of all squares. Looked at twice, row by row, so that
+// a large sample takes a byte a texel and no more.
+std::vector<std::uint8_t> sensitivities(const FeatureImage& image, double floor_share) {
+  const auto wide = static_cast<std::size_t>(image.width);
+  const auto high = static_cast<std::size_t>(image.height);
+  std::vector<double> of_row(high); // sums of a row, added in their order whatever the number of threads
+  const auto mean_of_rows = [&] {
+    return std::accumulate(of_row.begin(), of_row.end(), 0.0) / static_cast<double>(wide * high);
+  };
+  tbb::parallel_for(std::size_t{0}, high, [&](std::size_t y) {
+    std::vector<std::int32_t> steps(wide);
+    add_steps(image, static_cast<int>(y), steps);
+    of_row[y] = static_cast<double>(std::accumulate(steps.begin(), steps.end(), std::int64_t{0}));
+  });
+  const double mean = std::max(1.0, mean_of_rows());
+  for_each_seen_row(image, floor_share, mean, [&](int y, const std::vector<double>& seen) {
+    of_row[static_cast<std::size_t>(y)] = std::accumulate(seen.begin(), seen.end(), 0.0);
+  });
+  const double all = mean_of_rows();
+  std::vector<std::uint8_t> result(wide * high);
+  for_each_seen_row(image, floor_share, mean, [&](int y, const std::vector<double>& seen) {
+    std::uint8_t* to = result.data() + static_cast<std::size_t>(y) * wide;
+    for (const double s : seen)
+      *to++ = static_cast<std::uint8_t>(std::clamp<long>(std::lround(sensitivity_unit * s / all), 1, 255));
+  });
   return result;
 }
+
+constexpr int farthest = structure_range * chamfer_unit;
+
+// The distance of each texel from the nearest strong edge, in 1 / chamfer_unit, at most `farthest`: two sweeps over
+// rows, each from the two rows before it and then along itself [Borgefors86].
+class EdgeDistances {
+public:
+  explicit EdgeDistances(const FeatureImage& image)
+      : width(static_cast<std::size_t>(image.width)), height(static_cast<std::size_t>(image.height)),
+        pitch(width + 2 * rim), values(pitch * (height + 2 * rim), std::uint8_t{farthest}) {
+    const std::vector<std::uint16_t> slope = slopes(image);
+    const int strong = strong_slope(slope);
+    for (std::size_t y = 0; y < height; ++y)
+      for (std::size_t x = 0; x < width; ++x)
+        if (slope[y * width + x] > strong) row(y)[x] = 0;
+    for (std::size_t y = 0; y < height; ++y) {
+      relax(row(y), -static_cast<std::ptrdiff_t>(pitch));
+      for (std::size_t x = 0; x < width; ++x) relax_beside(row(y) + x, -1);
+    }
+    for (std::size_t y = height; y-- > 0;) {
+      relax(row(y), static_cast<std::ptrdiff_t>(pitch));
+      for (std::size_t x = width; x-- > 0;) relax_beside(row(y) + x, 1);
+    }
+  }
+
+  const std::uint8_t* row(std::size_t y) const { return values.data() + (y + rim) * pitch + rim; }
+
+private:
+  static constexpr std::size_t rim = 2; // texels round the image, as far as a step goes: nothing is near them
+
+  std::uint8_t* row(std::size_t y) { return values.data() + (y + rim) * pitch + rim; }
+
+  static std::uint8_t nearer(int a, int b) { return static_cast<std::uint8_t>(a < b ? a : b); }
+
+  // From the rows one and two further; `further`: to the next.
+  void relax(std::uint8_t* own, std::ptrdiff_t further) const {
+    const std::uint8_t* one = own + further;
+    const std::uint8_t* two = one + further;
+    for (std::size_t x = 0; x < width; ++x, ++one, ++two) {
+      std::uint8_t d = nearer(own[x], *one + chamfer_unit);
+      d = nearer(d, nearer(one[-1], one[1]) + chamfer_diagonal);
+      d = nearer(d, nearer(nearer(one[-2], one[2]), nearer(two[-1], two[1])) + chamfer_knight);
+      own[x] = d;
+    }
+  }
+  static void relax_beside(std::uint8_t* texel, std::ptrdiff_t step) {
+    *texel = nearer(*texel, texel[step] + chamfer_unit);
+  }
+
+  std::size_t width, height, pitch;
+  std::vector<std::uint8_t> values;
+};
 
 } // namespace
 
@@ -152,48 +269,24 @@ std::int64_t variance_of(const FeatureImage& image) {
 
 FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options) {
   if (image.channels >= max_feature_channels || options.weight <= 0.0) return image;
-  const std::vector<std::uint16_t> slope = slopes(image);
-  const int strong = strong_slope(slope);
-
+  const EdgeDistances distance(image);
   const int w = image.width;
   const int h = image.height;
-  constexpr int farthest = structure_range * chamfer_unit;
-  const auto index = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-  };
-  std::vector<std::uint8_t> distance(slope.size());
-  for (std::size_t i = 0; i < slope.size(); ++i)
-    distance[i] = static_cast<std::uint8_t>(slope[i] > strong ? 0 : farthest);
-  const auto relax = [&](int x, int y, int dx, int dy, int step) {
-    if (x + dx < 0 || x + dx >= w || y + dy < 0 || y + dy >= h) return;
-    std::uint8_t& d = distance[index(x, y)];
-    d = static_cast<std::uint8_t>(std::min<int>(d, distance[index(x + dx, y + dy)] + step));
-  };
-  const auto sweep = [&](int x, int y, int sign) {
-    relax(x, y, -sign, 0, chamfer_unit);
-    for (const int dx : {-1, 1}) {
-      relax(x, y, dx, -sign, chamfer_diagonal);
-      relax(x, y, 2 * dx, -sign, chamfer_knight);
-      relax(x, y, dx, -2 * sign, chamfer_knight);
-    }
-    relax(x, y, 0, -sign, chamfer_unit);
-  };
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) sweep(x, y, 1);
-  for (int y = h - 1; y >= 0; --y)
-    for (int x = w - 1; x >= 0; --x) sweep(x, y, -1);
-
   FeatureImage result{w, h, image.channels + 1, {}, image.guides + 1, 0, {}};
   result.sensitivity = sensitivities(image, options.sensitivity_floor);
   result.flat_seam = static_cast<int>(options.flat_seam_share * static_cast<double>(variance_of(image)));
-  result.values.resize(slope.size() * static_cast<std::size_t>(result.channels));
   const int full = static_cast<int>(std::lround(255.0 * std::min(options.weight, 1.0)));
-  std::uint8_t* value = result.values.data();
-  for (std::size_t i = 0; i < slope.size(); ++i) {
-    const std::uint8_t* own = image.values.data() + i * static_cast<std::size_t>(image.channels);
-    value = std::copy_n(own, image.channels, value);
-    *value++ = static_cast<std::uint8_t>(distance[i] * full / farthest);
-  }
+  const auto wide = static_cast<std::size_t>(w);
+  result.values.resize(wide * static_cast<std::size_t>(h) * static_cast<std::size_t>(result.channels));
+  tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(h), [&](std::size_t y) {
+    std::uint8_t* value = result.values.data() + y * wide * static_cast<std::size_t>(result.channels);
+    const std::uint8_t* own = image.texel(0, static_cast<int>(y));
+    const std::uint8_t* d = distance.row(y);
+    for (std::size_t x = 0; x < wide; ++x, own += image.channels) {
+      value = std::copy_n(own, image.channels, value);
+      *value++ = static_cast<std::uint8_t>(d[x] * full / farthest);
+    }
+  });
   return result;
 }
 

@@ -9,6 +9,10 @@ namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
+// From here on blocks go back to the system when they are freed. The C library keeps those below 32 MB or so, and of a set
+// whose tiles are given up one by one nothing would be gained.
+constexpr std::size_t given_back = std::size_t{8} << 20;
+
 } // namespace
 
 void* texel_block(std::size_t bytes) {
@@ -22,10 +26,14 @@ void* texel_block(std::size_t bytes) {
 }
 
 void free_texel_block(void* block, std::size_t bytes) noexcept {
-  if (bytes < huge_block)
+  if (bytes < huge_block) {
     ::operator delete(block);
-  else
+  } else {
+#ifdef MADV_DONTNEED
+    if (bytes >= given_back) ::madvise(block, bytes / huge_page * huge_page, MADV_DONTNEED);
+#endif
     ::operator delete (block, std::align_val_t{huge_page});
+  }
 }
 
 } // namespace tilepack

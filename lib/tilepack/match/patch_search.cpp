@@ -64,11 +64,17 @@ std::vector<Rect> searched_parts(const FeatureImage& image, Size largest_patch, 
   };
   const int w = side(image.width, largest_patch.width);
   const int h = side(image.height, largest_patch.height);
+  struct Run {
+    int from, length;
+  };
+  const auto runs = [](int whole, int part) {
+    if (2 * part >= whole) return std::vector{Run{0, whole}};
+    return std::vector{Run{std::clamp(whole / 4 - part / 2, 0, whole - part), part},
+                       Run{std::clamp(3 * whole / 4 - part / 2, 0, whole - part), part}};
+  };
   std::vector<Rect> parts;
-  for (const int y : {1, 3})
-    for (const int x : {1, 3})
-      parts.push_back({std::clamp(x * image.width / 4 - w / 2, 0, image.width - w),
-                       std::clamp(y * image.height / 4 - h / 2, 0, image.height - h), w, h});
+  for (const Run& y : runs(image.height, h))
+    for (const Run& x : runs(image.width, w)) parts.push_back({x.from, y.from, x.length, y.length});
   return parts;
 }
 
@@ -104,10 +110,21 @@ PatchSearch::PatchSearch(const FeatureImage& image, Size largest_patch, std::int
 
 PatchSearch::~PatchSearch() = default;
 
+std::int64_t PositionMap::at(int x, int y) const {
+  for (const Part& part : parts) {
+    const Rect& a = part.area;
+    if (x >= a.x && y >= a.y && x < a.x + a.width && y < a.y + a.height)
+      return part.values[static_cast<std::size_t>(y - a.y) * static_cast<std::size_t>(a.width) +
+                         static_cast<std::size_t>(x - a.x)];
+  }
+  return ruled_out;
+}
+
 PositionMap PatchSearch::mismatches(const Overlap& overlap) const {
   const Spectra& s = *spectra;
-  PositionMap map{s.width - overlap.width + 1, s.height - overlap.height + 1, {}};
-  map.values.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height), ruled_out);
+  PositionMap map;
+  map.width = s.width - overlap.width + 1;
+  map.height = s.height - overlap.height + 1;
   for (const Spectra::Part& part : s.parts) {
     // sum w |S - v|² = (S² ⋆ w) - 2 sum over channels (S ⋆ w v) + constant, ⋆ a correlation. Positions at
     // which the patch would wrap round the padded image are not read.
@@ -132,12 +149,12 @@ PositionMap PatchSearch::mismatches(const Overlap& overlap) const {
     const int high = part.area.height - overlap.height + 1;
     const int wide = part.area.width - overlap.width + 1;
     part.transform.inverse(total, {wide, high});
+    PositionMap::Part& found = map.parts.emplace_back();
+    found.area = {part.area.x, part.area.y, wide, high};
+    found.values.reserve(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
     for (int y = 0; y < high; ++y) {
       const double* row = total.real_row(y);
-      std::int64_t* values = map.values.data() +
-                             static_cast<std::size_t>(part.area.y + y) * static_cast<std::size_t>(map.width) +
-                             static_cast<std::size_t>(part.area.x);
-      for (int x = 0; x < wide; ++x) values[x] = nearest_integer(row[x]) + overlap.constant;
+      for (int x = 0; x < wide; ++x) found.values.push_back(nearest_integer(row[x]) + overlap.constant);
     }
   }
   return map;

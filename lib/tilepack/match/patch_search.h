@@ -28,20 +28,50 @@ public:
   std::int64_t constant = 0; ///< sum of weight * value²
 };
 
-/// One number for each position of a patch's north-west texel at which the patch lies inside the image.
-struct PositionMap {
-  int width = 0;
-  int height = 0;
-  std::vector<std::int64_t> values; ///< row by row
-
-  std::int64_t at(int x, int y) const {
-    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(x)];
-  }
-};
-
 /// In place of a mismatch: a position that must not be taken.
 constexpr std::int64_t ruled_out = std::numeric_limits<std::int64_t>::max();
+
+/// One number for each position of a patch's north-west texel at which the patch lies inside the image, or for those
+/// of some parts of it: then it takes no more room and time than these, however large the image is.
+struct PositionMap {
+  struct Part {
+    Rect area;                        ///< positions
+    std::vector<std::int64_t> values; ///< row by row
+
+    std::int64_t& at(int x, int y) {
+      return values[static_cast<std::size_t>(y - area.y) * static_cast<std::size_t>(area.width) +
+                    static_cast<std::size_t>(x - area.x)];
+    }
+    SourceTexel place(std::size_t i) const {
+      return {area.x + static_cast<int>(i % static_cast<std::size_t>(area.width)),
+              area.y + static_cast<int>(i / static_cast<std::size_t>(area.width))};
+    }
+  };
+  int width = 0; ///< positions of the image
+  int height = 0;
+  std::vector<Part> parts; ///< none overlaps another; elsewhere positions are ruled out
+
+  PositionMap() = default;
+  /// Of all positions, each with this number.
+  PositionMap(int all_width, int all_height, std::int64_t value)
+      : width(all_width),
+        height(all_height), parts{{{0, 0, width, height},
+                                   std::vector<std::int64_t>(static_cast<std::size_t>(width) *
+                                                                 static_cast<std::size_t>(height),
+                                                             value)}} {}
+
+  std::int64_t at(int x, int y) const;
+
+  /// visit(x, y, value), part by part and row by row.
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (Part& part : parts)
+      for (std::size_t i = 0; i < part.values.size(); ++i) {
+        const SourceTexel p = part.place(i);
+        visit(p.x, p.y, part.values[i]);
+      }
+  }
+};
 
 /// Compares an overlap with every placement of its patch in an image, by Fourier transform: the time grows
 /// with the image's area, hardly with the patch's.
@@ -58,6 +88,7 @@ public:
 
   /// Of an image of more than `most_texels` texels only the middles of its four quarters, of so many texels
   /// together, and at least twice as wide and as high as the largest patch. Positions elsewhere are ruled out.
+  /// Where these would overlap, they are one.
   PatchSearch(const FeatureImage& image, Size largest_patch, std::int64_t most_texels);
   ~PatchSearch();
   PatchSearch(const PatchSearch&) = delete;

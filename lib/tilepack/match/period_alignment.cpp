@@ -64,10 +64,9 @@ int PeriodAlignment::Axis::nearest(int texel, int low, int high) const {
 
 void rule_out_of_step(PositionMap& map, const PeriodAlignment& alignment, int scale) {
   if (alignment.free()) return;
-  std::size_t i = 0;
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x, ++i)
-      if (!alignment.allows({x * scale, y * scale}, scale)) map.values[i] = ruled_out;
+  map.for_each([&](int x, int y, std::int64_t& value) {
+    if (!alignment.allows({x * scale, y * scale}, scale)) value = ruled_out;
+  });
 }
 
 } // namespace tilepack

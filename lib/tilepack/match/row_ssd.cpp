@@ -1,5 +1,8 @@
 #include "tilepack/match/row_ssd.h"
 
+#include <algorithm>
+#include <limits>
+
 // This file is compiled once for each instruction set, by including itself.
 // clang-format off
 #undef HWY_TARGET_INCLUDE
@@ -98,6 +101,24 @@ HWY_EXPORT(difference_of_rows);
 int squared_difference_of_rows(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
                                std::ptrdiff_t b_stride, std::size_t bytes, int rows, int limit) {
   return HWY_DYNAMIC_DISPATCH(difference_of_rows)(a, a_stride, b, b_stride, bytes, rows, limit);
+}
+
+std::int64_t squared_difference_of_bytes(const std::uint8_t* a, const std::uint8_t* b, std::size_t bytes) {
+  constexpr std::size_t whole = 64;       // a multiple of all vectors, so that none reaches past the end
+  constexpr std::size_t longest = 32'768; // · 255² fits 31 bits
+  std::int64_t sum = 0;
+  while (bytes >= whole) {
+    const std::size_t run = std::min(longest, bytes / whole * whole);
+    sum += squared_difference_of_rows(a, 0, b, 0, run, 1, std::numeric_limits<int>::max());
+    a += run;
+    b += run;
+    bytes -= run;
+  }
+  for (std::size_t i = 0; i < bytes; ++i) {
+    const int d = static_cast<int>(a[i]) - static_cast<int>(b[i]);
+    sum += d * d;
+  }
+  return sum;
 }
 
 } // namespace tilepack

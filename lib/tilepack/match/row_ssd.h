@@ -16,4 +16,7 @@ constexpr std::size_t byte_row_slack = 64;
 int squared_difference_of_rows(const std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b,
                                std::ptrdiff_t b_stride, std::size_t bytes, int rows, int limit);
 
+/// The sum of squared differences of two rows of `bytes` bytes, any number. Reads nothing past them.
+std::int64_t squared_difference_of_bytes(const std::uint8_t* a, const std::uint8_t* b, std::size_t bytes);
+
 } // namespace tilepack

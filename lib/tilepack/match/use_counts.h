@@ -2,6 +2,8 @@
 
 #include "tilepack/image/image.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace tilepack {
@@ -35,6 +37,14 @@ public:
 
   /// Counts `area` `weight` times more, which may be negative; see UseSquares::bounds for the rounding.
   void add(Rect area, double weight);
+
+  /// Counts the square that holds (x, y) once more, or the last one.
+  void add_texel(int x, int y) {
+    const auto i = static_cast<std::size_t>(std::min(x / squares.side, squares.columns - 1));
+    const auto j = static_cast<std::size_t>(std::min(y / squares.side, squares.rows - 1));
+    const std::size_t n = j * static_cast<std::size_t>(squares.columns) + i;
+    counts[n] += reuse_weights.empty() ? 1 : reuse_weights[n];
+  }
 
 private:
   friend UseTable prepared(const UseCounts& counts);

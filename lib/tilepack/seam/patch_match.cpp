@@ -36,28 +36,70 @@ struct MatchPenalties {
   }
 };
 
-constexpr SourceTexel inactive{-1, -1};
-
 SourceTexel inside(const FeatureImage& image, SourceTexel s) {
   return {std::clamp(s.x, half, image.width - 1 - half), std::clamp(s.y, half, image.height - 1 - half)};
 }
 
-// For each texel of a canvas the middle of the square in the sample that is like the square round it: the
-// square it stems from, near seams; `inactive` elsewhere.
-std::vector<SourceTexel> first_matches(const FeatureImage& image, const PatchMatchOptions& options,
-                                       const SourceCanvas& canvas) {
-  const auto costs = seams_at_texels(image, canvas);
-  std::vector<SourceTexel> match(canvas.texels.size(), inactive);
-  for (int seam_y = 0; seam_y < canvas.height; ++seam_y)
+// The squares of a canvas that are matched, those near seams: few, so that a large canvas takes little room.
+struct Matches {
+  std::vector<std::uint32_t> at;     // the middle of each, as an index of the canvas's texels, ascending
+  std::vector<SourceTexel> like;     // the middle of the square in the sample that is like it
+  std::vector<std::size_t> first_of; // row of the canvas → the first in it or below; one more at the end
+};
+
+// Where seams cost more than the threshold, row by row: visit(row, a cost a texel).
+template <class Visit>
+void for_each_cost_row(const FeatureImage& image, const SourceCanvas& canvas, Visit&& visit) {
+  const auto w = static_cast<std::size_t>(canvas.width);
+  std::vector<std::int64_t> own(w), below(w);
+  for (int y = 0; y < canvas.height; ++y) {
+    const SourceTexel* row = canvas.texels.data() + canvas.index(0, y);
+    for (std::size_t x = 0; x < w; ++x) {
+      if (x + 1 < w) {
+        const std::int64_t cost = seam_cost(image, row[x], row[x + 1], 1, 0);
+        own[x] += cost;
+        own[x + 1] += cost;
+      }
+      if (y + 1 < canvas.height) {
+        const std::int64_t cost = seam_cost(image, row[x], row[x + w], 0, 1);
+        own[x] += cost;
+        below[x] += cost;
+      }
+    }
+    visit(y, own);
+    own.swap(below);
+    std::fill(below.begin(), below.end(), 0);
+  }
+}
+
+// Of each square near a seam the square it stems from.
+Matches first_matches(const FeatureImage& image, const PatchMatchOptions& options,
+                      const SourceCanvas& canvas) {
+  std::vector<std::uint8_t> near(canvas.texels.size());
+  for_each_cost_row(image, canvas, [&](int seam_y, const std::vector<std::int64_t>& costs) {
+    const int last_y = std::min(canvas.height - 1 - half, seam_y + options.reach);
     for (int seam_x = 0; seam_x < canvas.width; ++seam_x) {
-      if (costs[canvas.index(seam_x, seam_y)] <= options.seam_threshold) continue;
+      if (costs[static_cast<std::size_t>(seam_x)] <= options.seam_threshold) continue;
       const int first_x = std::max(half, seam_x - options.reach);
       const int last_x = std::min(canvas.width - 1 - half, seam_x + options.reach);
-      const int last_y = std::min(canvas.height - 1 - half, seam_y + options.reach);
+      if (first_x > last_x) continue;
       for (int y = std::max(half, seam_y - options.reach); y <= last_y; ++y)
-        for (int x = first_x; x <= last_x; ++x) match[canvas.index(x, y)] = inside(image, canvas.at(x, y));
+        std::fill_n(near.begin() + static_cast<std::ptrdiff_t>(canvas.index(first_x, y)),
+                    last_x - first_x + 1, std::uint8_t{1});
     }
-  return match;
+  });
+  Matches matches;
+  for (int y = 0; y < canvas.height; ++y) {
+    matches.first_of.push_back(matches.at.size());
+    for (int x = 0; x < canvas.width; ++x) {
+      const std::size_t i = canvas.index(x, y);
+      if (!near[i]) continue;
+      matches.at.push_back(static_cast<std::uint32_t>(i));
+      matches.like.push_back(inside(image, canvas.texels[i]));
+    }
+  }
+  matches.first_of.push_back(matches.at.size());
+  return matches;
 }
 
 // One pass over one canvas: the field of nearest neighbours is made better, then the texels are voted on.
@@ -65,92 +107,109 @@ class PatchMatchPass {
 public:
   PatchMatchPass(const FeatureImage& feature_image, const MatchPenalties& match_penalties,
                  const std::vector<std::uint8_t>& fixed_texels, const PatchMatchOptions& match_options,
-                 SourceCanvas& source_canvas, std::vector<SourceTexel>& matches)
+                 SourceCanvas& source_canvas, Matches& matches)
       : image(feature_image), penalties(match_penalties), fixed(fixed_texels), options(match_options),
-        canvas(source_canvas), match(matches), channels(static_cast<std::size_t>(image.channels)),
-        image_end(image.values.data() + image.values.size()) {
-    for (std::size_t i = 0; i < match.size(); ++i)
-      if (match[i] != inactive) active.push_back(i);
-    if (active.empty()) return;
+        canvas(source_canvas), at(matches.at), match(matches.like), first_of(matches.first_of),
+        channels(static_cast<std::size_t>(image.channels)),
+        image_end(image.values.data() + image.values.size()) {}
+
+  // Makes the match of each square better [Barnes09]: sweeps go forward and backward in turn, and at each
+  // square propagation comes before random search. `stream` tells passes and canvases apart.
+  void search(std::uint64_t stream) {
+    if (at.empty()) return;
     shown.resize(canvas.texels.size() * channels + byte_row_slack);
     for (std::size_t i = 0; i < canvas.texels.size(); ++i) {
       const SourceTexel s = canvas.texels[i];
       std::copy_n(image.texel(s.x, s.y), channels, shown.begin() + static_cast<std::ptrdiff_t>(i * channels));
     }
-    distance.resize(canvas.texels.size());
-  }
-
-  // Makes the match of each square better [Barnes09]: sweeps go forward and backward in turn, and at each
-  // square propagation comes before random search. `stream` tells passes and canvases apart.
-  void search(std::uint64_t stream) {
-    for (const std::size_t i : active)
-      distance[i] = penalized(match[i], difference(i, match[i], std::numeric_limits<int>::max()));
-    changed.assign(canvas.texels.size(), 0);
+    number.assign(canvas.texels.size(), none);
+    for (std::size_t n = 0; n < at.size(); ++n) number[at[n]] = static_cast<std::uint32_t>(n);
+    distance.resize(at.size());
+    for (std::size_t n = 0; n < at.size(); ++n)
+      distance[n] = penalized(match[n], difference(n, match[n], std::numeric_limits<int>::max()));
+    changed.assign(at.size(), 0);
     for (int sweep = 0; sweep < options.sweeps; ++sweep) {
       const std::uint64_t trials = random_bits(stream, "polish trials", static_cast<std::uint64_t>(sweep));
       const bool forward = sweep % 2 == 0;
-      for (std::size_t n = 0; n < active.size(); ++n) {
-        const std::size_t i = forward ? active[n] : active[active.size() - 1 - n];
-        if (distance[i] == 0) continue;
-        const SourceTexel before = match[i];
-        propagate(i, forward ? 1 : -1, sweep);
-        random_search(i, mixed(trials + i));
-        if (match[i] != before) changed[i] = sweep;
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const std::size_t n = forward ? k : at.size() - 1 - k;
+        if (distance[n] == 0) continue;
+        const SourceTexel before = match[n];
+        propagate(n, forward ? 1 : -1, sweep);
+        random_search(n, mixed(trials + at[n]));
+        if (match[n] != before) changed[n] = sweep;
       }
     }
+    shown = {};
+    number = {};
   }
 
   // Replaces each texel by what is nearest to the mean of what the matches of its squares show in its place:
   // the vote of [Wexler07] and the M step of [Kwatra05], but for the mean itself, which is in no sample.
   void vote() {
-    switch (channels) {
-    case 1:
-      return vote_of<1>();
-    case 3:
-      return vote_of<3>();
-    default:
-      return vote_of<0>();
+    for (int y = 0; y < canvas.height; y += voted_rows) {
+      switch (channels) {
+      case 1:
+        vote_in_band<1>(y);
+        break;
+      case 3:
+        vote_in_band<3>(y);
+        break;
+      case 4:
+        vote_in_band<4>(y);
+        break;
+      default:
+        vote_in_band<0>(y);
+      }
     }
   }
 
 private:
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr int voted_rows = 64; // at a time, so that what is counted stays in the cache
+
   // Tries the matches of the two neighbours that the sweep came from, moved along with the square. One that has
   // not changed since two sweeps ago was tried in vain then, and is not tried again: matches only get better.
-  void propagate(std::size_t i, int step, int sweep) {
-    const auto is_new = [&](std::size_t n) { return match[n] != inactive && changed[n] >= sweep - 1; };
-    const std::size_t beside = i - static_cast<std::size_t>(step);
-    const std::size_t above = i - static_cast<std::size_t>(step * canvas.width);
-    if (is_new(beside)) try_match(i, inside(image, {match[beside].x + step, match[beside].y}));
-    if (is_new(above)) try_match(i, inside(image, {match[above].x, match[above].y + step}));
+  void propagate(std::size_t n, int step, int sweep) {
+    const auto is_new = [&](std::uint32_t other) { return other != none && changed[other] >= sweep - 1; };
+    const std::uint32_t beside = number[at[n] - static_cast<std::size_t>(step)];
+    const std::uint32_t above = number[at[n] - static_cast<std::size_t>(step * canvas.width)];
+    if (is_new(beside)) try_match(n, inside(image, {match[beside].x + step, match[beside].y}));
+    if (is_new(above)) try_match(n, inside(image, {match[above].x, match[above].y + step}));
   }
 
   // Tries places round the match so far, within radii that shrink by `radius_step`.
-  void random_search(std::size_t i, std::uint64_t bits) {
+  void random_search(std::size_t n, std::uint64_t bits) {
     for (int radius = std::max(image.width, image.height); radius >= 1; radius /= radius_step) {
       const auto offset = [&](std::uint64_t word) {
         return static_cast<int>((word * static_cast<std::uint64_t>(2 * radius + 1)) >> 32) - radius;
       };
-      const SourceTexel at = match[i];
-      try_match(i, inside(image, {at.x + offset(bits & 0xffffffffu), at.y + offset(bits >> 32)}));
+      const SourceTexel from = match[n];
+      try_match(n, inside(image, {from.x + offset(bits & 0xffffffffu), from.y + offset(bits >> 32)}));
       bits = mixed(bits + 0x9e3779b97f4a7c15u);
     }
   }
 
-  // `known`: the number of channels, if the compiler shall know it.
+  // Of the texels of some rows from `top` on. `known`: the number of channels, if the compiler shall know it.
   template <std::size_t known>
-  void vote_of() {
+  void vote_in_band(int top) {
     const std::size_t n = known > 0 ? known : channels;
-    std::vector<std::uint16_t> sum(canvas.texels.size() * n); // 49 × 255 at most
-    std::vector<std::uint8_t> votes(canvas.texels.size());
-    for_each_row([&](std::size_t i, SourceTexel, const std::uint8_t* row) {
+    const int bottom = std::min(canvas.height, top + voted_rows);
+    const std::size_t begin = first_of[static_cast<std::size_t>(top)];
+    const std::size_t end = first_of[static_cast<std::size_t>(bottom)];
+    if (begin == end) return; // none of them may change
+    const std::size_t texels = canvas.index(0, bottom) - canvas.index(0, top);
+    std::vector<std::uint16_t> sum(texels * n); // 49 × 255 at most
+    std::vector<std::uint8_t> votes(texels);
+    for_each_row(top, bottom, [&](std::size_t i, SourceTexel, const std::uint8_t* row) {
       for (std::size_t k = 0; k < side * n; ++k)
         sum[i * n + k] = static_cast<std::uint16_t>(sum[i * n + k] + row[k]);
       for (std::size_t k = 0; k < side; ++k) ++votes[i + k];
     });
     // Differences from the mean, times the number of votes: (49 × 255)² × 16 fits 32 bits.
-    std::vector<std::uint32_t> least(canvas.texels.size(), std::numeric_limits<std::uint32_t>::max());
-    std::vector<SourceTexel> nearest(canvas.texels.size());
-    for_each_row([&](std::size_t i, SourceTexel s, const std::uint8_t* row) {
+    std::vector<std::uint32_t> least(texels, std::numeric_limits<std::uint32_t>::max());
+    std::vector<SourceTexel> nearest(texels);
+    for_each_row(top, bottom, [&](std::size_t i, SourceTexel s, const std::uint8_t* row) {
       for (std::size_t k = 0; k < side; ++k, ++i, ++s.x, row += n) {
         std::uint32_t d = 0;
         for (std::size_t c = 0; c < n; ++c) {
@@ -163,24 +222,28 @@ private:
         }
       }
     });
-    for (const std::size_t i : active)
-      if (!fixed[i]) canvas.texels[i] = nearest[i];
+    for (std::size_t k = begin; k < end; ++k)
+      if (!fixed[at[k]]) canvas.texels[at[k]] = nearest[at[k] - canvas.index(0, top)];
   }
 
-  // visit(index of the first of `side` texels, the sample texel proposed for it, the values of these texels),
-  // row by row of each square.
+  // visit(index of the first of `side` texels, from the band's first on, the sample texel proposed for it, the values
+  // of these texels), row by row of each square that reaches into the rows from `top` to before `bottom`.
   template <typename Visit>
-  void for_each_row(Visit&& visit) const {
-    for (const std::size_t j : active)
-      for (int dy = -half; dy <= half; ++dy) {
-        const SourceTexel s{match[j].x - half, match[j].y + dy};
-        visit(j + static_cast<std::size_t>(dy * canvas.width - half), s, image.texel(s.x, s.y));
-      }
+  void for_each_row(int top, int bottom, Visit&& visit) const {
+    for (int y = std::max(0, top - half); y < std::min(canvas.height, bottom + half); ++y)
+      for (std::size_t k = first_of[static_cast<std::size_t>(y)];
+           k < first_of[static_cast<std::size_t>(y) + 1]; ++k)
+        for (int row = std::max(top, y - half); row < std::min(bottom, y + half + 1); ++row) {
+          const SourceTexel s{match[k].x - half, match[k].y + row - y};
+          const std::size_t x = at[k] - canvas.index(0, y) - half;
+          visit(canvas.index(0, row - top) + x, s, image.texel(s.x, s.y));
+        }
   }
 
   // The squared difference of two squares, or some number >= limit if it is not below it.
-  int difference(std::size_t i, SourceTexel s, int limit) const {
-    const std::size_t corner = i - static_cast<std::size_t>(half) * static_cast<std::size_t>(canvas.width) -
+  int difference(std::size_t n, SourceTexel s, int limit) const {
+    const std::size_t corner = at[n] -
+                               static_cast<std::size_t>(half) * static_cast<std::size_t>(canvas.width) -
                                static_cast<std::size_t>(half);
     const std::uint8_t* other = image.texel(s.x - half, s.y - half);
     const auto stride = static_cast<std::ptrdiff_t>(image.width) * image.channels;
@@ -205,14 +268,14 @@ private:
         static_cast<std::int64_t>(d) * (MatchPenalties::unit + penalties.at(s)) / MatchPenalties::unit));
   }
 
-  void try_match(std::size_t i, SourceTexel s) {
-    if (s == match[i]) return;
-    const int d = difference(i, s, distance[i]);
-    if (d >= distance[i]) return;
+  void try_match(std::size_t n, SourceTexel s) {
+    if (s == match[n]) return;
+    const int d = difference(n, s, distance[n]);
+    if (d >= distance[n]) return;
     const int cost = penalized(s, d);
-    if (cost >= distance[i]) return;
-    distance[i] = cost;
-    match[i] = s;
+    if (cost >= distance[n]) return;
+    distance[n] = cost;
+    match[n] = s;
   }
 
   const FeatureImage& image;
@@ -220,13 +283,15 @@ private:
   const std::vector<std::uint8_t>& fixed;
   const PatchMatchOptions& options;
   SourceCanvas& canvas;
+  const std::vector<std::uint32_t>& at;
   std::vector<SourceTexel>& match;
+  const std::vector<std::size_t>& first_of;
   std::size_t channels;
   const std::uint8_t* image_end;
-  std::vector<std::size_t> active; // middles of squares, row by row
-  std::vector<std::uint8_t> shown; // what the canvas shows
-  std::vector<int> distance;       // of each square to its match, penalties counted
-  std::vector<int> changed;        // the last sweep that changed it
+  std::vector<std::uint32_t> number; // texel of the canvas → the square round it, or none
+  std::vector<std::uint8_t> shown;   // what the canvas shows
+  std::vector<int> distance;         // of each square to its match, penalties counted
+  std::vector<int> changed;          // the last sweep that changed it
 };
 
 // For low contrast alone.
@@ -252,7 +317,7 @@ void add_reuse_penalties(const FeatureImage& image, const std::vector<SourceCanv
     for (int y = counted.y; y < counted.y + counted.height; ++y)
       for (int x = counted.x; x < counted.x + counted.width; ++x) {
         const SourceTexel s = canvas.at(x, y);
-        counts.add({s.x - s.x % square, s.y - s.y % square, square, square}, 1.0);
+        counts.add_texel(s.x, s.y);
       }
   const UseTable uses = prepared(counts);
   const double average = uses.mean();
@@ -318,13 +383,16 @@ void match_and_vote(const PatchMatchInput& input, const PatchMatchOptions& optio
   const Rect& all = input.counted;
   const Rect counted{all.x / scale, all.y / scale, all.width / scale, all.height / scale};
   const std::size_t count = canvases.size();
-  std::vector<SourceCanvas> before(count);
-  std::vector<SourceCanvas> after(count);
-  std::vector<std::vector<SourceTexel>> matches(count);
-  each_side_by_side(count, [&](std::size_t n) {
-    before[n] = after[n] = shrunk(image, canvases[n], scale);
-    matches[n] = first_matches(image, options, after[n]);
-  });
+  // At full size canvases are worked on where they are.
+  std::vector<SourceCanvas> before, small;
+  if (scale > 1) {
+    before.resize(count);
+    each_side_by_side(count, [&](std::size_t n) { before[n] = shrunk(image, canvases[n], scale); });
+    small = before;
+  }
+  std::vector<SourceCanvas>& after = scale > 1 ? small : canvases;
+  std::vector<Matches> matches(count);
+  each_side_by_side(count, [&](std::size_t n) { matches[n] = first_matches(image, options, after[n]); });
   const MatchPenalties by_contrast =
       contrast_penalties(image, input.ranks, std::max(1, penalty_square / scale), options.contrast_weight);
   for (int pass = 0; pass < options.passes; ++pass) {
@@ -337,7 +405,7 @@ void match_and_vote(const PatchMatchInput& input, const PatchMatchOptions& optio
       run.vote();
     });
   }
-  for (std::size_t n = 0; n < count; ++n) enlarge_changes(before[n], after[n], scale, canvases[n]);
+  for (std::size_t n = 0; n < before.size(); ++n) enlarge_changes(before[n], after[n], scale, canvases[n]);
 }
 
 } // namespace tilepack

@@ -98,10 +98,9 @@ bool replaced(const SeamRepairInput& input, const SeamRepairOptions& options, Re
                                                                   : CutConstraint::free);
   bool changed = false;
   for (int attempt = 0; attempt < options.tries; ++attempt) {
-    const auto least = std::min_element(map.values.begin(), map.values.end());
-    if (*least == ruled_out) break;
-    const int at = static_cast<int>(least - map.values.begin());
-    const SourceTexel place = best_near(image, full, {at % map.width * scale, at / map.width * scale}, scale);
+    SourceTexel found;
+    if (!take_best(map, 0, found)) break;
+    const SourceTexel place = best_near(image, full, {found.x * scale, found.y * scale}, scale);
     rule_out(map, place, scale, 2);
     patch.origin = {place.x - area.x, place.y - area.y};
     changed = lay_patch(image, canvas, patch) || changed;
@@ -116,16 +115,17 @@ void replace_worst_patches(const SeamRepairInput& input, const SeamRepairOptions
   if (options.patches == 0) return;
   const FeatureImage& image = input.pyramid.front();
   const int scale = 1 << (input.pyramid.size() - 1);
+  const int side = options.window / scale * scale;
+  if (std::min({side, canvas.width, canvas.height}) < 2 * scale ||
+      std::min(side, canvas.width) > image.width || std::min(side, canvas.height) > image.height)
+    return;
   WorstPatchFinder finder(canvas, std::max(1, options.window / 2));
   std::vector<std::int64_t> costs = seams_at_texels(image, canvas);
   for (int n = 0; n < options.patches; ++n) {
     const WorstPatch worst = finder.worst(costs);
     if (worst.cost == 0) return;
-    const Rect area = around(worst.area, options.window / scale * scale, canvas.width, canvas.height);
+    const Rect area = around(worst.area, side, canvas.width, canvas.height);
     finder.rule_out(around(worst.area, options.window / 3, canvas.width, canvas.height));
-    if (area.width < 2 * scale || area.height < 2 * scale || area.width > image.width ||
-        area.height > image.height)
-      return;
     if (replaced(input, options, area, canvas)) costs = seams_at_texels(image, canvas);
   }
 }

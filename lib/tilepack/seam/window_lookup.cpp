@@ -3,14 +3,6 @@
 #include <algorithm>
 
 namespace tilepack {
-namespace {
-
-std::int64_t& value_at(PositionMap& map, int x, int y) {
-  return map.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                    static_cast<std::size_t>(x)];
-}
-
-} // namespace
 
 void add_shown(const FeatureImage& image, const SourceCanvas& canvas, SourceTexel at, int scale, Rect hole,
                Overlap& overlap) {
@@ -36,9 +28,12 @@ void add_shown(const FeatureImage& image, const SourceCanvas& canvas, SourceTexe
 void rule_out(PositionMap& map, SourceTexel origin, int scale, int distance) {
   const int cx = origin.x / scale;
   const int cy = origin.y / scale;
-  for (int y = std::max(0, cy - distance); y <= std::min(map.height - 1, cy + distance); ++y)
-    for (int x = std::max(0, cx - distance); x <= std::min(map.width - 1, cx + distance); ++x)
-      value_at(map, x, y) = ruled_out;
+  for (PositionMap::Part& part : map.parts) {
+    const Rect& a = part.area;
+    for (int y = std::max(a.y, cy - distance); y <= std::min(a.y + a.height - 1, cy + distance); ++y)
+      for (int x = std::max(a.x, cx - distance); x <= std::min(a.x + a.width - 1, cx + distance); ++x)
+        part.at(x, y) = ruled_out;
+  }
 }
 
 void rule_out_material_of(PositionMap& map, const SourceCanvas& canvas, Rect area, int scale, int step,
@@ -57,20 +52,22 @@ void rule_out_material_of(PositionMap& map, const SourceCanvas& canvas, Rect are
 void add_reuse_weight(PositionMap& map, const UseTable& uses, Size window, double reuse_weight) {
   const double average = uses.mean();
   if (average <= 0.0 || reuse_weight <= 0.0) return;
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x) {
-      std::int64_t& mismatch = value_at(map, x, y);
-      if (mismatch == ruled_out) continue;
-      const double often = uses.mean({x, y, window.width, window.height}) / average;
-      mismatch = static_cast<std::int64_t>(static_cast<double>(mismatch) * (1.0 + reuse_weight * often));
-    }
+  map.for_each([&](int x, int y, std::int64_t& mismatch) {
+    if (mismatch == ruled_out) return;
+    const double often = uses.mean({x, y, window.width, window.height}) / average;
+    mismatch = static_cast<std::int64_t>(static_cast<double>(mismatch) * (1.0 + reuse_weight * often));
+  });
 }
 
 bool take_best(PositionMap& map, int apart, SourceTexel& place) {
-  const auto least = std::min_element(map.values.begin(), map.values.end());
-  if (least == map.values.end() || *least == ruled_out) return false;
-  const int at = static_cast<int>(least - map.values.begin());
-  place = {at % map.width, at / map.width};
+  std::int64_t best = ruled_out;
+  for (const PositionMap::Part& part : map.parts) {
+    const auto least = std::min_element(part.values.begin(), part.values.end());
+    if (least == part.values.end() || *least >= best) continue;
+    best = *least;
+    place = part.place(static_cast<std::size_t>(least - part.values.begin()));
+  }
+  if (best == ruled_out) return false;
   rule_out(map, place, 1, apart);
   return true;
 }

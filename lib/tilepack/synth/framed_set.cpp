@@ -61,23 +61,53 @@ private:
   std::vector<std::array<std::size_t, 9>> tiles;
 };
 
+// What lies near the four borders of a tile, for its neighbours to see.
+class TileRim {
+public:
+  TileRim(const SourceCanvas& tile, int rim_depth)
+      : depth(rim_depth), width(tile.width), height(tile.height), north(width, depth), south(width, depth),
+        west(depth, height), east(depth, height) {
+    for (int y = 0; y < depth; ++y)
+      for (int x = 0; x < width; ++x) {
+        north.at(x, y) = tile.at(x, y);
+        south.at(x, y) = tile.at(x, height - depth + y);
+      }
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < depth; ++x) {
+        west.at(x, y) = tile.at(x, y);
+        east.at(x, y) = tile.at(width - depth + x, y);
+      }
+  }
+  const SourceTexel& at(int x, int y) const {
+    if (y < depth) return north.at(x, y);
+    if (y >= height - depth) return south.at(x, y - height + depth);
+    return x < depth ? west.at(x, y) : east.at(x - width + depth, y);
+  }
+
+private:
+  int depth, width, height;
+  SourceCanvas north, south, west, east;
+};
+
 // A tile in the midst of `margin` texels beyond its borders: what neighbours show there. Without them a seam would drift to the border, where nothing
 // would tell how it looks from the other side.
-SourceCanvas with_margin(const Neighbours& neighbours, int margin, std::size_t id,
-                         const std::vector<SourceCanvas>& tiles) {
-  const SourceCanvas& tile = tiles[id];
+SourceCanvas with_margin(const Neighbours& neighbours, int margin, std::size_t id, const SourceCanvas& tile,
+                         const std::vector<TileRim>& rims) {
   const int w = tile.width;
   const int h = tile.height;
   SourceCanvas canvas(w + 2 * margin, h + 2 * margin);
-  for (int j = 0; j < canvas.height; ++j)
+  for (int j = 0; j < canvas.height; ++j) {
+    const int y = j - margin;
+    const int row = y < 0 ? 0 : y < h ? 1 : 2;
     for (int i = 0; i < canvas.width; ++i) {
       const int x = i - margin;
-      const int y = j - margin;
       const int column = x < 0 ? 0 : x < w ? 1 : 2;
-      const int row = y < 0 ? 0 : y < h ? 1 : 2;
-      const std::size_t from = neighbours.of(id, column, row);
-      canvas.at(i, j) = tiles[from].at(x - (column - 1) * w, y - (row - 1) * h);
+      canvas.at(i, j) =
+          column == 1 && row == 1
+              ? tile.at(x, y)
+              : rims[neighbours.of(id, column, row)].at(x - (column - 1) * w, y - (row - 1) * h);
     }
+  }
   return canvas;
 }
 
@@ -157,7 +187,7 @@ UseTable uses_by(const SearchSpace& space, const std::vector<SourceCanvas>& tile
   UseCounts counts(space.small_image().width, space.small_image().height);
   const int scale = space.scale();
   for (const SourceCanvas& tile : tiles)
-    for (const SourceTexel s : tile.texels) counts.add({s.x / scale, s.y / scale, 1, 1}, 1.0);
+    for (const SourceTexel s : tile.texels) counts.add_texel(s.x / scale, s.y / scale);
   return prepared(counts);
 }
 
@@ -172,15 +202,21 @@ void repair_tiles(const SearchSpace& space, const MatchLevels& levels, const Fra
   const PeriodAlignment alignment = sources.alignment.seen_from({-margin, -margin});
   const auto fixed = fixed_texels(shape, margin);
   const Neighbours neighbours(shape);
+  std::vector<TileRim> rims;
+  for (const SourceCanvas& tile : tiles) rims.emplace_back(tile, margin);
   std::vector<SourceCanvas> wide(tiles.size());
   each_side_by_side(tiles.size(), [&](std::size_t id) {
-    wide[id] = with_margin(neighbours, margin, id, tiles);
+    wide[id] = with_margin(neighbours, margin, id, tiles[id], rims);
+    tiles[id] = {}; // sets of large tiles are large
     replace_worst_patches({space.pyramid, space.search, uses, alignment, fixed}, settings.repair, wide[id]);
   });
   report(progress, "repair", 0.3);
   levels.match_both(fixed, {margin, margin, shape.tile.width, shape.tile.height}, settings.coarse_match,
                     settings.fine_match, wide);
-  for (std::size_t id = 0; id < tiles.size(); ++id) tiles[id] = without_margin(wide[id], margin);
+  for (std::size_t id = 0; id < tiles.size(); ++id) {
+    tiles[id] = without_margin(wide[id], margin);
+    wide[id] = {};
+  }
   report(progress, "repair", 1.0);
 }
 

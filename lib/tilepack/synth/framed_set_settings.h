@@ -114,6 +114,7 @@ struct InteriorOptions {
   std::size_t fewest_choices = 64;        ///< a tile has so many whatever the size of the set
   std::size_t tiles_in_all_starts = 256; ///< starts · tiles stays below, but for one start: the larger a set,
                                          ///< the less one order differs from another (w)
+  double most_squares = 65'536; ///< of the sample, of which larger ones are counted in larger squares (w)
   int use_squares = 16; ///< uses are counted in squares of which so many make the tile's smaller side (w)
 };
 

@@ -4,12 +4,14 @@
 
 namespace tilepack {
 
-InsideCuts::InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std::int64_t full_bias)
-    : image(space.small_image()), frame(framed.width / space.scale(), framed.height / space.scale()),
+InsideCuts::InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std::int64_t full_bias,
+                       int level)
+    : image(space.pyramid[static_cast<std::size_t>(level)]),
+      frame(framed.width >> level, framed.height >> level),
       // a texel stands for scale² of them, a pair of neighbours for `scale` pairs
-      bias(full_bias * space.scale()) {
+      bias(full_bias << level) {
   const FrameShape& shape = space.shape;
-  const int scale = space.scale();
+  const int scale = 1 << level;
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x) {
       const int full_x = x * scale + scale / 2, full_y = y * scale + scale / 2;
@@ -25,6 +27,13 @@ InsideCuts::InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std
       frame.at(x, y) = {std::clamp(s.x / scale, 0, image.width - 1),
                         std::clamp(s.y / scale, 0, image.height - 1)};
     }
+}
+
+void InsideCuts::settle(const std::vector<CutConstraint>& settled) {
+  for (std::size_t i = 0; i < constraints.size(); ++i)
+    if (settled[i] != CutConstraint::free &&
+        (constraints[i] == CutConstraint::free || constraints[i] == CutConstraint::unbiased))
+      constraints[i] = settled[i];
 }
 
 SourceCanvas InsideCuts::laid(SourceTexel place) const {

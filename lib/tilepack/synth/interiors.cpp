@@ -27,20 +27,25 @@ bool costs_less(const Choice& a, const Choice& b) {
 }
 
 // The best position of each square block of positions, blocks as small as the limit allows.
-std::vector<Choice> block_minima(const PositionMap& map, std::size_t limit) {
-  const auto ruled = std::count(map.values.begin(), map.values.end(), ruled_out);
-  const std::size_t open = map.values.size() - static_cast<std::size_t>(ruled);
+std::vector<Choice> block_minima(PositionMap& map, std::size_t limit) {
+  std::size_t open = 0;
+  for (const PositionMap::Part& part : map.parts)
+    open += part.values.size() -
+            static_cast<std::size_t>(std::count(part.values.begin(), part.values.end(), ruled_out));
   int block = 1;
   while (open > limit * static_cast<std::size_t>(block) * static_cast<std::size_t>(block)) ++block;
   std::vector<Choice> choices;
-  for (int y = 0; y < map.height; y += block)
-    for (int x = 0; x < map.width; x += block) {
-      Choice best{{x, y}, map.at(x, y)};
-      for (int j = y; j < std::min(map.height, y + block); ++j)
-        for (int i = x; i < std::min(map.width, x + block); ++i)
-          if (map.at(i, j) < best.mismatch) best = {{i, j}, map.at(i, j)};
-      if (best.mismatch != ruled_out) choices.push_back(best);
-    }
+  for (PositionMap::Part& part : map.parts) {
+    const int right = part.area.x + part.area.width, bottom = part.area.y + part.area.height;
+    for (int y = part.area.y; y < bottom; y += block)
+      for (int x = part.area.x; x < right; x += block) {
+        Choice best{{x, y}, part.at(x, y)};
+        for (int j = y; j < std::min(bottom, y + block); ++j)
+          for (int i = x; i < std::min(right, x + block); ++i)
+            if (part.at(i, j) < best.mismatch) best = {{i, j}, part.at(i, j)};
+        if (best.mismatch != ruled_out) choices.push_back(best);
+      }
+  }
   return choices;
 }
 
@@ -193,7 +198,11 @@ InteriorTask interior_task(const SearchSpace& space, const FrameSources& sources
   const FeatureImage& small = space.small_image();
   const Size tile = space.small_shape.tile;
   const int scale = space.scale();
-  const int square = std::max(1, std::min(tile.width, tile.height) / options.use_squares);
+  int square = std::max(1, std::min(tile.width, tile.height) / options.use_squares);
+  // Of a sample much larger than tiles fewer and larger ones are counted: all of them, after every choice.
+  while (4 * square <= std::min(tile.width, tile.height) &&
+         static_cast<double>(small.width) * small.height > options.most_squares * square * square)
+    square *= 2;
   UseCounts counts(small.width, small.height, square);
   set_reuse_weights(space.sample.saliency, options.saliency_weight, scale, counts);
   add_strips(space.shape, sources, scale, counts);
@@ -228,8 +237,7 @@ void refine(const SearchSpace& space, const PeriodAlignment& alignment, const st
   constexpr int distance = 2; // the rounding of the level before, and one
   each_side_by_side(tiles.size(), [&](std::size_t id) {
     for (std::size_t level = space.pyramid.size() - 1; level-- > 0;)
-      places[id] = best_near(space.pyramid[level], tiles[id].overlap(level),
-                             {2 * places[id].x, 2 * places[id].y}, distance);
+      places[id] = tiles[id].best_near(level, {2 * places[id].x, 2 * places[id].y}, distance);
     const Size tile = space.shape.tile;
     if (!alignment.free() && !alignment.allows(places[id], 1))
       places[id] = alignment.nearest(places[id], {0, 0},
@@ -237,33 +245,54 @@ void refine(const SearchSpace& space, const PeriodAlignment& alignment, const st
   });
 }
 
-// What a cut at the scale of the search settles for the cut at full size: all but a band round its line.
-std::vector<CutConstraint> settled_by_search(const SearchSpace& space, const SourceCanvas& framed,
-                                             SourceTexel place, std::int64_t bias) {
-  std::vector<CutConstraint> settled(framed.texels.size(), CutConstraint::free);
-  const int scale = space.scale();
-  if (scale == 1) return settled;
-  const InsideCuts cuts(space, framed, bias);
-  const Size cut = cuts.size();
-  const int w = cut.width, h = cut.height; // clang 14 captures no structured bindings
-  const FeatureImage& small = space.small_image();
-  const std::vector<std::uint8_t> taken =
-      cuts.taken({std::clamp((place.x + scale / 2) / scale, 0, small.width - w),
-                  std::clamp((place.y + scale / 2) / scale, 0, small.height - h)});
+// What a cut settles for a cut `factor` times as fine, on a canvas of size `fine`: all but a band round its line.
+std::vector<CutConstraint> settled_by(const std::vector<std::uint8_t>& taken, Size coarse, Size fine,
+                                      int factor) {
+  const int w = coarse.width, h = coarse.height;
   const auto takes = [&](int x, int y) {
     return taken[static_cast<std::size_t>(std::clamp(y, 0, h - 1)) * static_cast<std::size_t>(w) +
                  static_cast<std::size_t>(std::clamp(x, 0, w - 1))] != 0;
   };
+  std::vector<CutConstraint> settled(
+      static_cast<std::size_t>(fine.width) * static_cast<std::size_t>(fine.height), CutConstraint::free);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
       int neighbours = 0;
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) neighbours += takes(x + dx, y + dy);
       if (neighbours > 0 && neighbours < 9) continue;
-      for (int j = 0; j < scale; ++j)
-        std::fill_n(settled.begin() + static_cast<std::ptrdiff_t>(framed.index(x * scale, y * scale + j)),
-                    scale, neighbours > 0 ? CutConstraint::take : CutConstraint::keep);
+      for (int j = 0; j < factor; ++j)
+        std::fill_n(settled.begin() + static_cast<std::ptrdiff_t>(y * factor + j) * fine.width + x * factor,
+                    factor, neighbours > 0 ? CutConstraint::take : CutConstraint::keep);
     }
+  return settled;
+}
+
+// The scale from which a line is brought to full size at once: round it a band of three of its texels is free, which is
+// room enough. From coarser ones bands would be so wide that cuts take longer than all else, and lines come down
+// scale by scale.
+constexpr int widest_step = 8;
+
+// What a cut at the scale of the search settles for the cut at full size.
+std::vector<CutConstraint> settled_by_search(const SearchSpace& space, const SourceCanvas& framed,
+                                             SourceTexel place, std::int64_t bias) {
+  const Size full{framed.width, framed.height};
+  int level = space.levels() - 1;
+  std::vector<CutConstraint> settled; // for `level`; by none, all is free
+  if (level == 0) settled.assign(framed.texels.size(), CutConstraint::free);
+  while (level > 0) {
+    const FeatureImage& image = space.pyramid[static_cast<std::size_t>(level)];
+    InsideCuts cuts(space, framed, bias, level);
+    if (!settled.empty()) cuts.settle(settled);
+    const int scale = 1 << level;
+    const Size size = cuts.size();
+    const std::vector<std::uint8_t> taken =
+        cuts.taken({std::clamp((place.x + scale / 2) / scale, 0, image.width - size.width),
+                    std::clamp((place.y + scale / 2) / scale, 0, image.height - size.height)});
+    const int next = scale > widest_step ? level - 1 : 0;
+    settled = settled_by(taken, size, {full.width >> next, full.height >> next}, 1 << (level - next));
+    level = next;
+  }
   return settled;
 }
 

@@ -14,6 +14,9 @@ namespace {
 constexpr std::size_t most_guises = 4; // of a window, that are looked up together: more are much the same (w)
 constexpr std::size_t measured_guises = 16;
 constexpr int least_cells = 3; // of the search, along a window's side
+// From coarser scales cuts and places come down scale by scale: as in join_interiors(), bands round cuts would be too wide,
+// and too many places would have to be compared at full size.
+constexpr int widest_step = 8;
 
 // A window and where it lies.
 struct Site {
@@ -37,12 +40,12 @@ public:
             const UseTable& use_table, const SetRepairOptions& repair_options,
             std::vector<SourceCanvas>& set_tiles)
       : space(search_space), alignment(period_alignment), uses(use_table), options(repair_options),
-        tiles(set_tiles), scale(space.scale()), small_shape(space.small_shape) {
-    small_shape.guard = std::max(1, small_shape.guard);
-    for (const SourceCanvas& tile : tiles) {
-      small_tiles.emplace_back(tile.width / scale, tile.height / scale);
-      shrink(small_tiles.size() - 1, {0, 0, tile.width, tile.height});
+        tiles(set_tiles), scale(space.scale()) {
+    for (int level = space.levels() - 1; level > 0; --level) {
+      if (level < space.levels() - 1 && (1 << level) < widest_step) break;
+      add_scale(level);
     }
+    if (scales.empty()) add_scale(0);
     // Windows at two sides of a tile must not touch: they are laid side by side.
     const int most = std::max(4 * scale, std::min(space.shape.tile.width, space.shape.tile.height) * 3 / 4);
     for (const int wanted : {2 * space.shape.reach, space.shape.reach}) {
@@ -72,13 +75,31 @@ private:
            static_cast<double>(cut.gain) >= options.least_gain * static_cast<double>(cut.before);
   }
 
-  void shrink(std::size_t tile, Rect area) {
-    const FeatureImage& small = space.small_image();
-    for (int y = area.y / scale; y < (area.y + area.height) / scale; ++y)
-      for (int x = area.x / scale; x < (area.x + area.width) / scale; ++x) {
-        const SourceTexel s = tiles[tile].at(x * scale + scale / 2, y * scale + scale / 2);
-        small_tiles[tile].at(x, y) = {std::min(s.x / scale, small.width - 1),
-                                      std::min(s.y / scale, small.height - 1)};
+  // The tiles at a scale, one texel for `scale` x `scale`.
+  struct Scaled {
+    const FeatureImage& image;
+    int scale;
+    FrameShape shape;
+    std::vector<SourceCanvas> tiles;
+  };
+
+  void add_scale(int level) {
+    Scaled& s = scales.emplace_back(
+        Scaled{space.pyramid[static_cast<std::size_t>(level)], 1 << level, halved(space.shape, level), {}});
+    s.shape.guard = std::max(1, s.shape.guard);
+    for (const SourceCanvas& tile : tiles) {
+      s.tiles.emplace_back(tile.width / s.scale, tile.height / s.scale);
+      shrink(s, s.tiles.size() - 1, {0, 0, tile.width, tile.height});
+    }
+  }
+
+  void shrink(Scaled& to, std::size_t tile, Rect area) const {
+    const int step = to.scale;
+    for (int y = area.y / step; y < (area.y + area.height) / step; ++y)
+      for (int x = area.x / step; x < (area.x + area.width) / step; ++x) {
+        const SourceTexel s = tiles[tile].at(x * step + step / 2, y * step + step / 2);
+        to.tiles[tile].at(x, y) = {std::min(s.x / step, to.image.width - 1),
+                                   std::min(s.y / step, to.image.height - 1)};
       }
   }
 
@@ -151,8 +172,9 @@ private:
       add_reuse_weight(map, uses, {w / scale, h / scale}, options.reuse_weight);
       SourceTexel place;
       for (int n = 0; n < options.screened && take_best(map, 1, place); ++n) {
-        WindowCut cut = cut_of_window(space.small_image(), small_shape,
-                                      {small_window, place, options.price * scale}, small_tiles);
+        const Scaled& small = scales.front();
+        WindowCut cut = cut_of_window(small.image, small.shape, {small_window, place, options.price * scale},
+                                      small.tiles);
         if (brings_enough(cut)) candidates.push_back({cut.gain, place, site, hole, std::move(cut.decisions)});
       }
     }
@@ -168,15 +190,36 @@ private:
     candidates.resize(std::min(candidates.size(), static_cast<std::size_t>(tries)));
     for (const Candidate& c : candidates) {
       const SharedWindow& window = sites[c.site].window;
-      Overlap overlap(window.size.width, window.size.height, image.channels);
-      add_shown(image, shown_in_window(window, tiles, 0), {0, 0}, 1, c.hole, overlap);
-      const SourceTexel place = best_near(image, overlap, {c.place.x * scale, c.place.y * scale}, scale / 2);
+      const SourceCanvas shown = shown_in_window(window, tiles, 0);
+      // The place and the cut, at one scale after the other.
+      SourceTexel place = c.place;
+      WindowDecisions decisions = c.decisions;
+      int from = scale;
+      for (std::size_t i = 1; i < scales.size(); ++i) {
+        const Scaled& s = scales[i];
+        const int step = from / s.scale;
+        place = place_near(s.image, shown, c.hole, s.scale, {place.x * step, place.y * step}, step);
+        const SharedWindow small = shrunk(window, s.scale);
+        decisions = cut_of_window(s.image, s.shape, {small, place, options.price * s.scale}, s.tiles,
+                                  enlarged(decisions, small, step))
+                        .decisions;
+        from = s.scale;
+      }
+      place = place_near(image, shown, c.hole, 1, {place.x * from, place.y * from}, from / 2);
       const LaidWindow laid{window, place, options.price};
-      const WindowCut cut =
-          cut_of_window(image, space.shape, laid, tiles, enlarged(c.decisions, window, scale));
+      const WindowCut cut = cut_of_window(image, space.shape, laid, tiles, enlarged(decisions, window, from));
       if (!brings_enough(cut) || !apply(laid, cut.decisions, tiles)) continue;
-      for (const WindowPart& part : window.parts) shrink(part.tile, part.area);
+      for (const WindowPart& part : window.parts)
+        for (Scaled& s : scales) shrink(s, part.tile, part.area);
     }
+  }
+
+  // Of the places at this scale within `distance`, that most like what is shown.
+  SourceTexel place_near(const FeatureImage& level, const SourceCanvas& shown, Rect hole, int at_scale,
+                         SourceTexel start, int distance) const {
+    Overlap overlap(shown.width / at_scale, shown.height / at_scale, level.channels);
+    add_shown(space.image(), shown, {0, 0}, at_scale, hole, overlap);
+    return best_near(level, overlap, start, distance);
   }
 
   const SearchSpace& space;
@@ -185,9 +228,8 @@ private:
   const SetRepairOptions& options;
   std::vector<SourceCanvas>& tiles;
   int scale;
-  FrameShape small_shape;
-  std::vector<SourceCanvas> small_tiles; // the tiles at the scale of the search
-  std::vector<int> sides;                // of windows, the largest first
+  std::vector<Scaled> scales; // that of the search first, then those that lead to full size
+  std::vector<int> sides;     // of windows, the largest first
 };
 
 } // namespace

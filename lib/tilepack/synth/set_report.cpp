@@ -219,14 +219,16 @@ std::vector<Cut> cuts_of_tile(const FeatureImage& image, const SourceMap& source
 std::vector<int> tiles_showing(const SourceMap& sources, Size sample) {
   const std::size_t count = static_cast<std::size_t>(sample.width) * static_cast<std::size_t>(sample.height);
   std::vector<int> showing(count);
-  std::vector<int> last(count, -1); // the last tile that was counted for a texel
-  for (std::size_t t = 0; t < sources.texels.size(); ++t)
-    for (const SourceTexel& from : sources.texels[t]) {
+  std::vector<bool> counted; // for the tile at hand
+  for (const auto& texels : sources.texels) {
+    counted.assign(count, false);
+    for (const SourceTexel& from : texels) {
       const std::size_t p = place_of(from, sample);
-      if (last[p] == static_cast<int>(t)) continue;
-      last[p] = static_cast<int>(t);
+      if (counted[p]) continue;
+      counted[p] = true;
       ++showing[p];
     }
+  }
   return showing;
 }
 
@@ -270,12 +272,11 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources, S
   const std::size_t tiles = sources.texels.size();
   const double tile_texels =
       static_cast<double>(sources.tile_size.width) * static_cast<double>(sources.tile_size.height);
-  const std::vector<int> showing = tiles_showing(sources, sample);
-  const std::vector<int> uses = uses_of(sources, sample);
   SetReport report;
   report.tiles.resize(tiles);
   std::vector<std::vector<double>> visibilities(tiles);
   std::vector<std::int64_t> often(tiles);
+  std::vector<int> showing = tiles_showing(sources, sample);
   tbb::parallel_for(std::size_t{0}, tiles, [&](std::size_t t) {
     TileFigures& tile = report.tiles[t];
     for (const Cut& cut : cuts_of_tile(image, sources, static_cast<int>(t)))
@@ -293,6 +294,11 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources, S
     tile.fresh = rounded(alone / tile_texels);
   });
 
+  if (sample != whole) showing = repeated(showing, sample, whole);
+  report.landmark = most_seen(analysed.saliency, whole, showing, tiles);
+  showing = {}; // of a large sample as large as what follows
+  const std::vector<int> uses = uses_of(sources, sample);
+
   std::vector<double> all;
   for (const auto& some : visibilities) all.insert(all.end(), some.begin(), some.end());
   SetFigures& f = report.figures;
@@ -306,11 +312,7 @@ SetReport set_report(const SampleAnalysis& analysed, const SourceMap& sources, S
         f.sample_step = rounded(step_of_sample(image));
         report.tones = tone_breaks(image, sources);
       },
-      [&] {
-        f.histogram_distance = rounded(distance_of(sample, analysed.statistics, uses));
-        report.landmark = most_seen(analysed.saliency, whole,
-                                    sample == whole ? showing : repeated(showing, sample, whole), tiles);
-      });
+      [&] { f.histogram_distance = rounded(distance_of(sample, analysed.statistics, uses)); });
   for (const TileFigures& tile : report.tiles) {
     f.in_pieces += tile.in_pieces / tile_number;
     f.fresh += tile.fresh / tile_number;

@@ -70,7 +70,7 @@ public:
   WindowGraph(const FeatureImage& feature_image, const FrameShape& frame_shape, const LaidWindow& laid_window,
               const std::vector<SourceCanvas>& set_tiles, const WindowDecisions& decided)
       : image(feature_image), shape(frame_shape), laid(laid_window), window(laid_window.window),
-        tiles(set_tiles), graph(texels()) {
+        tiles(set_tiles), graph(open_texels(decided)) {
     std::map<SharedTexel, int> shared;
     for (std::size_t n = 0; n < window.parts.size(); ++n) {
       const WindowPart& part = window.parts[n];
@@ -134,9 +134,19 @@ public:
   }
 
 private:
-  std::size_t texels() const {
+  // At most so many get a node.
+  std::size_t open_texels(const WindowDecisions& decided) const {
     std::size_t sum = 0;
-    for (const WindowPart& part : window.parts) sum += index(part.area.width) * index(part.area.height);
+    for (std::size_t n = 0; n < window.parts.size(); ++n) {
+      const Rect& a = window.parts[n].area;
+      const std::size_t all = index(a.width) * index(a.height);
+      const std::size_t rim =
+          index(shape.guard) * (index(a.width) + index(a.height)); // what is shared is always open
+      sum += decided.empty()
+                 ? all
+                 : std::min(all, 2 * rim + static_cast<std::size_t>(std::count(
+                                               decided[n].begin(), decided[n].end(), CutConstraint::free)));
+    }
     return sum;
   }
 
@@ -170,9 +180,10 @@ private:
         for (int x = part.area.x; x < part.area.x + part.area.width; ++x, ++i) {
           bool alone = node_of[i] != CutGraph::kept && !in_guard(shape, x, y);
           const SourceTexel shown = tiles[part.tile].at(x, y);
-          for (const WindowPart& other : window.parts)
-            alone = alone && (other.pane != part.pane || other.tile == part.tile ||
-                              tiles[other.tile].at(x, y) != shown);
+          for (std::size_t n = 0; alone && n < window.parts.size(); ++n) {
+            const WindowPart& other = window.parts[n];
+            alone = other.pane != part.pane || other.tile == part.tile || tiles[other.tile].at(x, y) != shown;
+          }
           own.push_back(alone);
         }
     }

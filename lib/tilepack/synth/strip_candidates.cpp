@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <numeric>
+#include <tuple>
 
 namespace tilepack {
 namespace {
@@ -22,14 +22,23 @@ std::vector<double> channel_means(const FeatureImage& image, Rect area) {
   return means;
 }
 
-// Indices of the `count` least values, least first, of equal ones the first.
-std::vector<std::size_t> least_places(const PositionMap& map, std::size_t count) {
-  std::vector<std::size_t> order(map.values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+struct Found {
+  std::int64_t mismatch;
+  std::uint32_t part, index; // in the map
+};
+
+// The `count` least values, least first, of equal ones the first.
+std::vector<Found> least_places(const PositionMap& map, std::size_t count) {
+  std::vector<Found> order;
+  for (std::uint32_t p = 0; p < map.parts.size(); ++p) {
+    const std::vector<std::int64_t>& values = map.parts[p].values;
+    for (std::uint32_t i = 0; i < values.size(); ++i)
+      if (values[i] != ruled_out) order.push_back({values[i], p, i});
+  }
   count = std::min(order.size(), count);
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-                    [&](std::size_t a, std::size_t b) {
-                      return map.values[a] != map.values[b] ? map.values[a] < map.values[b] : a < b;
+                    [&](const Found& a, const Found& b) {
+                      return std::tie(a.mismatch, a.part, a.index) < std::tie(b.mismatch, b.part, b.index);
                     });
   order.resize(count);
   return order;
@@ -54,15 +63,15 @@ std::vector<StripCandidate> StripRanking::best(const PositionMap& map, const Str
   const auto wanted = static_cast<std::size_t>(options.candidates);
   const std::size_t spares = static_cast<std::size_t>(options.spares_per_candidate) * wanted;
   std::vector<StripCandidate> apart;
-  for (const std::size_t i : least_places(map, static_cast<std::size_t>(options.places_per_candidate) * wanted)) {
-    if (apart.size() >= spares || map.values[i] == ruled_out) break;
-    const SourceTexel at{static_cast<int>(i % static_cast<std::size_t>(map.width)),
-                         static_cast<int>(i / static_cast<std::size_t>(map.width))};
+  for (const Found& found :
+       least_places(map, static_cast<std::size_t>(options.places_per_candidate) * wanted)) {
+    if (apart.size() >= spares) break;
+    const SourceTexel at = map.parts[found.part].place(found.index);
     if (std::any_of(apart.begin(), apart.end(), [&](const StripCandidate& c) {
           return std::abs(c.place.x - at.x) < options.apart && std::abs(c.place.y - at.y) < options.apart;
         }))
       continue;
-    apart.push_back({at, static_cast<double>(map.values[i]) / depth + mean_color_cost(at, axes)});
+    apart.push_back({at, static_cast<double>(found.mismatch) / depth + mean_color_cost(at, axes)});
   }
   // Corner patches, the same for all candidates, are left out of it.
   const double usual = std::max(usual_step[axes.direction == Direction::horizontal ? 0 : 1], 1e-3);

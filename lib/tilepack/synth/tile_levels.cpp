@@ -1,5 +1,7 @@
 #include "tilepack/synth/tile_levels.h"
 
+#include "tilepack/match/row_ssd.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -33,6 +35,54 @@ Overlap TileLevels::overlap(std::size_t level) const {
     for (int x = 0; x < f.width; ++x, ++i)
       if (known[i]) overlap.add(x, y, f.texel(x, y));
   return overlap;
+}
+
+SourceTexel TileLevels::best_near(std::size_t level, SourceTexel start, int distance) const {
+  const FeatureImage& image = space->pyramid[level];
+  const int w = canvas->width >> level, h = canvas->height >> level;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  std::vector<SourceTexel> places; // of the tile's north-west texel
+  for (int dy = -distance; dy <= distance; ++dy)
+    for (int dx = -distance; dx <= distance; ++dx)
+      places.push_back(
+          {std::clamp(start.x + dx, 0, image.width - w), std::clamp(start.y + dy, 0, image.height - h)});
+  std::vector<std::int64_t> mismatches(places.size());
+  std::vector<std::uint8_t> row(static_cast<std::size_t>(w) * channels);
+  std::vector<std::uint8_t> known(static_cast<std::size_t>(w));
+  for (int y = 0; y < h; ++y) {
+    const std::uint8_t* shown = row.data();
+    const std::uint8_t* is_known = known.data();
+    if (level == 0) {
+      for (int x = 0; x < w; ++x) {
+        const SourceTexel s = canvas->at(x, y);
+        const auto i = static_cast<std::size_t>(x);
+        known[i] = s != no_source && !in_guard(space->shape, x, y);
+        if (known[i])
+          std::copy_n(image.texel(s.x, s.y), channels,
+                      row.begin() + static_cast<std::ptrdiff_t>(i * channels));
+      }
+    } else {
+      const Level& own = smaller[level - 1];
+      shown = own.features.texel(0, y);
+      is_known =
+          own.known.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(own.features.width);
+    }
+    for (int x = 0; x < w;) {
+      if (!is_known[x]) {
+        ++x;
+        continue;
+      }
+      int end = x + 1;
+      while (end < w && is_known[end]) ++end;
+      const std::size_t bytes = static_cast<std::size_t>(end - x) * channels;
+      for (std::size_t p = 0; p < places.size(); ++p)
+        mismatches[p] += squared_difference_of_bytes(shown + static_cast<std::size_t>(x) * channels,
+                                                     image.texel(places[p].x + x, places[p].y + y), bytes);
+      x = end;
+    }
+  }
+  return places[static_cast<std::size_t>(std::min_element(mismatches.begin(), mismatches.end()) -
+                                         mismatches.begin())];
 }
 
 TileLevels::Level TileLevels::full_size() const {

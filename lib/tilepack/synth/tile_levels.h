@@ -19,6 +19,10 @@ public:
   /// texels of the level before are such.
   Overlap overlap(std::size_t level) const;
 
+  /// best_near() of that overlap in that level, row by row and without the overlap, which takes 20 bytes a texel and
+  /// more.
+  SourceTexel best_near(std::size_t level, SourceTexel start, int distance) const;
+
 private:
   struct Level {
     FeatureImage features;
