@@ -1,9 +1,11 @@
+#include "console.h"
 #include "value_check.h"
 #include "verb.h"
 
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/text_file.h"
 #include "tilepack/pack/pack_read.h"
+#include "tilepack/report/scene_view_page.h"
 #include "tilepack/report/view_page.h"
 #include "tilepack/shader/shader_text.h"
 
@@ -22,10 +24,37 @@ struct ViewArguments {
   std::string pack;
   std::string output;
   std::optional<double> metres;
+  std::optional<double> time;
 };
 
-int run_view(const ViewArguments& a) {
+// The page of a scene; what it leaves out of the picture is said.
+int view_scene(const ViewArguments& a, Console& console) {
+  const SceneFile scene = read_scene(a.pack);
+  SceneFiles files(scene);
+  ViewPageSettings settings;
+  settings.title = std::filesystem::path(a.pack).filename().string();
+  settings.made_by = fmt::format("tilepack view {}", settings.title);
+  if (a.metres) settings.made_by += fmt::format(" --metres {}", *a.metres);
+  if (a.time) settings.made_by += fmt::format(" --time {}", *a.time);
+  settings.metres = a.metres;
+  const SceneViewPage page = scene_view_page(scene, files, settings, a.time.value_or(0));
+  check_outputs(std::vector<OutputFile>{{"--output", a.output}}, files.inputs());
+  write_text_file(a.output, page.text);
+  constexpr double sharp = 4; // cells a texel: up to there the overview takes over without a blur
+  if (page.cells_a_texel > sharp)
+    console.note(fmt::format(
+        "from afar the page shows an overview with a texel every {:.0f} cells; pixels of 4 to {:.0f} "
+        "cells are blurred, which `compose` draws sharp",
+        page.cells_a_texel, page.cells_a_texel));
+  return 0;
+}
+
+int run_view(const ViewArguments& a, Console& console) {
   check_page_name({"--output", a.output});
+  if (is_scene_file(a.pack)) return view_scene(a, console);
+  if (a.time)
+    throw Error(ErrorKind::usage, "--time",
+                fmt::format("goes with scenes, whose animations it is the time of; {} is a pack", a.pack));
   check_outputs(std::vector<OutputFile>{{"--output", a.output}}, files_of_pack(a.pack));
   const Pack pack = read_pack(a.pack);
   // The folder's own name, so that the page does not depend on where the pack lies.
@@ -43,22 +72,32 @@ int run_view(const ViewArguments& a) {
 
 Action declare_view(Options& options) {
   auto a = std::make_shared<ViewArguments>();
-  options.option("PACK", a->pack, "folder of a pack, or its pack.json").required();
+  options.option("PACK", a->pack, "folder of a pack, its pack.json, or a scene").required();
   options.option("-o,--output", a->output, "page to write; it stands alone and needs a browser with WebGL 2")
       .required()
       .value("FILE.html");
-  options.option("--metres", a->metres, "width of a tile in metres, for a scale")
+  options
+      .option("--metres", a->metres,
+              "width of a tile in metres, for a scale; of a scene that of 256 texels, as in camera views")
       .check(positive_number(1e6, " metres a tile"))
       .value("M");
-  return [a](Console&) { return run_view(*a); };
+  options
+      .option("--time", a->time,
+              "of a scene: time at which the page opens, in steps of animations; what is seen from afar "
+              "stays at it "
+              "(default 0)")
+      .check(number(-1e6, 1e6))
+      .value("T");
+  return [a](Console& console) { return run_view(*a, console); };
 }
 
 } // namespace
 
 Verb view_verb() {
-  return {"view", "write a page to pan, zoom and fly over the endless texture of a pack",
+  return {"view", "write a page to pan, zoom and fly over the endless texture of a pack or scene",
           "  tilepack view gravel.pack -o gravel.html\n"
-          "  tilepack view rock.pack -o rock.html --metres 2.5\n",
+          "  tilepack view rock.pack -o rock.html --metres 2.5\n"
+          "  tilepack view landscape.json -o landscape.html\n",
           declare_view};
 }
 

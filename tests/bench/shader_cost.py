@@ -1,14 +1,23 @@
 """What a lookup costs in a shader beside what engines offer: times of whole pictures on Mesa's software renderer, or whatever
 EGL finds (LIBGL_ALWAYS_SOFTWARE=0), in turn, as ratios to plain texturing.
 
-    python3 tests/bench/shader_cost.py build/release/tilepack [WIDTH HEIGHT ROUNDS]
+    python3 tests/bench/shader_cost.py build/release/tilepack [--size 1920x1080] [--rounds 9]
+    python3 tests/bench/shader_cost.py build/release/tilepack --append times.jsonl --minutes 5 [--columns coherent-1,grazing-6]
+    python3 tests/bench/shader_cost.py --table times.jsonl
+
+Rounds can be gathered in slices, while other work goes on: in a round all methods are timed in turn, and only their ratios count, of which
+the table has medians. With a software renderer times are those of the processor, summed over its threads, so that waiting for others is no
+part of them. --append adds each round to a file, that with the fewest rounds first, until it has --rounds of each column or the
+minutes are over; --table prints what a file has.
 
 Bakes packs of samples/pebbles.png, 64 x 64 texels a tile. Peers' methods are written after their authors' pages and abstracts: hex tiling after
 Mikkelsen, "Practical Real-Time Hex-Tiling" (JCGT 11(3), 2022), histogram-preserving blending after Heitz and Neyret (HPG
 2018; the inverse transform as one more fetch), and the methods that Babylon.js's page on texture repetition lists, by their counts
 of fetches: blend of two offsets by a low noise (3), offsets and mirrors of four cells blended (4), Voronoi bombing (9)."""
 
+import argparse
 import ctypes
+import json
 import os
 import statistics
 import subprocess
@@ -121,9 +130,10 @@ VIEWS = {"coherent": "s * size.y * 1.3 / 64.0 + 37.0", "grazing": "vec2(s.x, 1.0
 
 
 class Bench:
-    def __init__(self, program, width, height, rounds):
-        self.gl, self.rounds = gl_context.Gl(), rounds
+    def __init__(self, program, width, height):
+        self.gl = gl_context.Gl()
         self.size = (width, height)
+        self.software = "llvmpipe" in self.gl.renderer()
         self.gl.target(width, height, gl_context.RGBA32F)
         self.folder = tempfile.TemporaryDirectory(prefix="tilepack_cost_")
         source = os.path.join(os.path.dirname(os.path.dirname(FOLDER)), "samples", "pebbles.png")
@@ -159,38 +169,84 @@ class Bench:
         return program
 
     def seconds(self, program):
+        clock = time.process_time if self.software else time.perf_counter
         self.gl.call("glUseProgram", program)
-        start = time.perf_counter()
+        self.gl.call("glFinish")
+        start = clock()
         self.gl.call("glDrawArrays", 4, 0, 3)
         self.gl.call("glFinish")
-        return time.perf_counter() - start
+        return clock() - start
 
-    def table(self):
-        methods = [("plain", 1, PLAIN), ("pack, `mix`", 1, packed(self.texts["mix"])), ("pack, `even`", 1, packed(self.texts["even"])),
-                   ("pack, `index`", 1, packed(self.texts["index"], ids=True)),
-                   ("pack, `mix`, exact", 2, packed(self.texts["mix"], "tilepack_exact_grad")),
-                   ("noise blend of two", 3, NOISE), ("hex tiling", 3, HEX), ("histogram blending", 4, HISTOGRAM),
-                   ("four mirrored offsets", 4, FOUR), ("Voronoi bombing", 9, VORONOI)]
-        columns = [(view, maps) for view in VIEWS for maps in (1, 3, 6)]
-        print(f"{self.gl.renderer()}, {self.size[0]} x {self.size[1]}, medians of {self.rounds} rounds in turn; speed, plain = 1\n")
-        print("| method | fetches a map | " + " | ".join(f"{view}, {maps} map{'s' if maps > 1 else ''}" for view, maps in columns) + " |")
-        print("|---" * (2 + len(columns)) + "|")
-        ratios = {name: [] for name, _, _ in methods}
-        for view, maps in columns:
-            programs = [self.program(get, maps, view) for _, _, get in methods]
-            times = [[] for _ in methods]
-            for turn in range(self.rounds + 1):  # the first compiles and warms up
-                for number, program in enumerate(programs):
-                    taken = self.seconds(program)
-                    if turn:
-                        times[number].append(taken)
-            for number, (name, _, _) in enumerate(methods):
-                ratios[name].append(statistics.median(a / b for a, b in zip(times[0], times[number])))
-        for name, fetches, _ in methods:
-            note = "2 to 8" if "exact" in name else f"{fetches} + 1 for all" if "index" in name else fetches
-            print(f"| {name} | {note} | " + " | ".join(f"{ratio:.2f}" for ratio in ratios[name]) + " |")
+    def methods(self):
+        return [("plain", 1, PLAIN), ("pack, `mix`", 1, packed(self.texts["mix"])), ("pack, `even`", 1, packed(self.texts["even"])),
+                ("pack, `index`", "1 + 1 for all", packed(self.texts["index"], ids=True)),
+                ("pack, `mix`, exact", "2 to 8", packed(self.texts["mix"], "tilepack_exact_grad")),
+                ("noise blend of two", 3, NOISE), ("hex tiling", 3, HEX), ("histogram blending", 4, HISTOGRAM),
+                ("four mirrored offsets", 4, FOUR), ("Voronoi bombing", 9, VORONOI)]
+
+    def rounds(self, column):
+        """Rounds of a column without end, each the seconds of every method in turn."""
+        view, maps = column.split("-")
+        methods = self.methods()
+        programs = [self.program(get, int(maps), view) for _, _, get in methods]
+        for program in programs:  # compiles and warms up
+            self.seconds(program)
+        while True:
+            yield {"renderer": self.gl.renderer(), "clock": "processor" if self.software else "wall", "size": self.size, "column": column,
+                   "fetches": {name: fetches for name, fetches, _ in methods},
+                   "seconds": {name: self.seconds(program) for (name, _, _), program in zip(methods, programs)}}
+
+
+def table(rounds):
+    """The table of rounds that were gathered, all on one renderer at one size."""
+    heads = {(r["renderer"], tuple(r["size"]), r["clock"]) for r in rounds}
+    if len(heads) != 1:
+        sys.exit(f"rounds of {len(heads)} renderers or sizes; a table is of one")
+    (renderer, (width, height), clock), = heads
+    columns = [c for c in COLUMNS if any(r["column"] == c for r in rounds)]
+    counts = [sum(r["column"] == c for r in rounds) for c in columns]
+    print(f"{renderer}, {width} x {height}, {clock} time, medians of {min(counts)} to {max(counts)} rounds in turn; speed, plain = 1\n")
+    print("| method | fetches a map | " + " | ".join(c.replace("-", ", ") + (" map" if c.endswith("-1") else " maps") for c in columns) + " |")
+    print("|---" * (2 + len(columns)) + "|")
+    for name, fetches in rounds[0]["fetches"].items():
+        ratios = [statistics.median(r["seconds"]["plain"] / r["seconds"][name] for r in rounds if r["column"] == c) for c in columns]
+        print(f"| {name} | {fetches} | " + " | ".join(f"{ratio:.2f}" for ratio in ratios) + " |")
+
+
+COLUMNS = [f"{view}-{maps}" for view in VIEWS for maps in (1, 3, 6)]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", nargs="?")
+    parser.add_argument("--size", default="1920x1080")
+    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--columns", default=",".join(COLUMNS))
+    parser.add_argument("--append")
+    parser.add_argument("--minutes", type=float, default=1e9)
+    parser.add_argument("--table")
+    a = parser.parse_args()
+    if a.table:
+        with open(a.table, encoding="utf-8") as file:
+            return table([json.loads(line) for line in file])
+    bench, end = Bench(os.path.abspath(a.program), *map(int, a.size.split("x"))), time.time() + 60 * a.minutes
+    gathered = []
+    if a.append and os.path.exists(a.append):
+        with open(a.append, encoding="utf-8") as file:
+            gathered = [json.loads(line) for line in file]
+    columns = a.columns.split(",")
+    count = {c: sum(r["column"] == c for r in gathered) for c in columns}
+    for column in sorted(columns, key=count.get):
+        source = bench.rounds(column)
+        while count[column] < a.rounds and time.time() < end:
+            gathered.append(next(source))
+            count[column] += 1
+            if a.append:
+                with open(a.append, "a", encoding="utf-8") as file:
+                    file.write(json.dumps(gathered[-1]) + "\n")
+    if gathered:
+        table(gathered)
 
 
 if __name__ == "__main__":
-    numbers = [int(n) for n in sys.argv[2:5]] or [1920, 1080, 9]
-    Bench(os.path.abspath(sys.argv[1]), *numbers).table()
+    main()

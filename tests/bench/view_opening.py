@@ -73,7 +73,9 @@ class Browser:
         self.ask("Page.navigate", url=address)
         while not self.value("!!window.tilepackView"):
             pass
-        return self.value("tilepackView.started.then(() => { tilepackView.gl.finish(); return performance.now(); })")
+        # Reading a pixel back waits for the picture; browsers' finish() doesn't.
+        return self.value("tilepackView.started.then(() => { const { gl } = tilepackView; "
+                          "gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); return performance.now(); })")
 
     def picture(self, path):
         with open(path, "wb") as file:

@@ -2,33 +2,16 @@
 
 import base64
 import json
-import os
 import re
-import shutil
-import subprocess
 import unittest
 
+from browser_page import CHROMIUM, found_in_page
 from png_image import read_png
 from shader_case import ShaderCase
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 SIDE = 128
-WATCH = "<script>window.faults = []; addEventListener('error', (e) => faults.push(String(e.message))); " \
-        "console.error = (...a) => faults.push(a.join(' '));</script>"
-# Pictures of the canvas as base64, the top row first.
-SCRIPT = """<script>
-tilepackView.started.then(async () => {
-  const { state, gl, draw, placeAt } = tilepackView, canvas = gl.canvas, out = { pictures: {} };
-  canvas.style.width = canvas.style.height = 'SIDEpx';
-  const picture = (name, changes) => {
-    Object.assign(state, changes);
-    draw();
-    const pixels = new Uint8Array(4 * SIDE * SIDE);
-    gl.readPixels(0, 0, SIDE, SIDE, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-    let text = '';
-    for (let y = SIDE - 1; y >= 0; --y) text += String.fromCharCode(...pixels.subarray(4 * SIDE * y, 4 * SIDE * (y + 1)));
-    out.pictures[name] = btoa(text);
-  };
+# What the browser does, beside tests/cli/browser_page.py.
+BODY = """
   const plain = { x: 8, y: 8, zoom: 1, fly: 0, lit: 0, tint: 'none', filter: 'nearest' };
   picture('nearest', plain);
   picture('ids', { tint: 'ids' });
@@ -53,11 +36,7 @@ tilepackView.started.then(async () => {
   location.hash = '#x=3.5&zoom=0.5&filter=nonsense';
   await new Promise((done) => setTimeout(done, 200));
   out.moved = [state.x, state.zoom, state.filter];
-  out.wide = document.documentElement.scrollWidth > innerWidth;
-  out.faults = faults;
-  document.body.textContent = 'RESULT' + JSON.stringify(out) + 'END';
-}).catch((e) => { document.body.textContent = 'RESULT' + JSON.stringify({ faults: [String(e)] }) + 'END'; });
-</script>""".replace("SIDE", str(SIDE))
+"""
 
 
 class ViewTest(ShaderCase):
@@ -85,20 +64,7 @@ class ViewTest(ShaderCase):
     def in_browser(self, pack, exact):
         """What the script above finds in the page of a pack."""
         self.run_tilepack("view", pack, "-o", "page.html")
-        with open(self.path("page.html"), encoding="utf-8") as file:
-            page = file.read()
-        page = page.replace("<style>", WATCH + "<style>", 1)
-        self.write("page.html", page.replace("</body>", SCRIPT.replace("EXACT", "true" if exact else "false") + "</body>"))
-        done = subprocess.run(
-            [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu-sandbox", "--use-angle=swiftshader",
-             "--enable-unsafe-swiftshader", "--window-size=500,400", "--user-data-dir=" + self.path("profile"),
-             "--virtual-time-budget=20000", "--dump-dom", "file://" + self.path("page.html")],
-            capture_output=True, text=True, check=False, timeout=300)
-        found = re.search(r"RESULT(.*)END", done.stdout, re.DOTALL)
-        self.assertIsNotNone(found, done.stdout[-2000:] + done.stderr[-2000:])
-        result = json.loads(found.group(1).replace("&amp;", "&").replace("&lt;", "<").replace("&gt;", ">"))
-        self.assertEqual(result["faults"], [])
-        return result
+        return found_in_page(self, "page.html", SIDE, BODY.replace("EXACT", "true" if exact else "false"))
 
     def rendered(self, pack, *options):
         self.run_tilepack("render", pack, "-o", "window.png", *options)

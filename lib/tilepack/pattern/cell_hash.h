@@ -56,6 +56,13 @@ public:
     return static_cast<double>(chained(cell)) / static_cast<double>(sigma.size());
   }
 
+  /// What the numbers are computed from, for programs that do so elsewhere.
+  HashKind kind() const { return hash; }
+  const MixKeys& mix_keys_drawn() const { return keys; }                  ///< of mix
+  const std::vector<std::uint32_t>& permutation() const { return sigma; } ///< σ of chain
+  int chain_steps_x() const { return steps_x; } ///< how often chain looks σ up over x, then over y
+  int chain_steps_y() const { return steps_y; }
+
 private:
   std::uint32_t word(PatternCell cell) const {
     return mix_word(keys, static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y));

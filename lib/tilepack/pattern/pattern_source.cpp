@@ -93,6 +93,21 @@ void find_means(const Pack& pack, PatternSource::Levels& levels) {
 
 } // namespace
 
+Pack PatternSource::opened_pack(int map, int first_level) const {
+  Pack pack = opener({about.map_of[static_cast<std::size_t>(map)], first_level});
+  if (pack.maps.size() != 1 || pack.layout.cells.empty())
+    throw Error(ErrorKind::internal, about.name,
+                fmt::format("{} maps were read where one was asked for", pack.maps.size()));
+  return pack;
+}
+
+Pack PatternSource::stored_pack(int map, Use use, int first_level) const {
+  const std::scoped_lock lock(opening);
+  Pack pack = opened_pack(map, first_level);
+  if (use == Use::patterns) lay_as_array(pack);
+  return pack;
+}
+
 const PatternSource::Levels& PatternSource::levels(int map, Use use, int level) const {
   Stored::Slot& slot = stored->slots[static_cast<std::size_t>(map)][use == Use::wang ? 0 : 1];
   const int wanted = std::clamp(level, 0, about.levels - 1);
@@ -101,10 +116,7 @@ const PatternSource::Levels& PatternSource::levels(int map, Use use, int level) 
   const std::scoped_lock lock(opening);
   newest = slot.newest.load(std::memory_order_relaxed);
   if (newest != nullptr && newest->first_level <= wanted) return *newest;
-  Pack pack = opener({about.map_of[static_cast<std::size_t>(map)], wanted});
-  if (pack.maps.size() != 1 || pack.layout.cells.empty())
-    throw Error(ErrorKind::internal, about.name,
-                fmt::format("{} maps were read where one was asked for", pack.maps.size()));
+  Pack pack = opened_pack(map, wanted);
   auto read = std::make_unique<Stored::Read>();
   read->levels.first_level = wanted;
   find_means(pack, read->levels);

@@ -71,6 +71,10 @@ public:
   enum class Use { wang, patterns };
   const Levels& levels(int map, Use use, int level) const;
 
+  /// Map `map` of the graph with level `first_level` and all coarser ones, read anew, as its sampler has it: of `patterns`
+  /// a layer a tile.
+  Pack stored_pack(int map, Use use, int first_level = 0) const;
+
   /// What was read so far.
   int openings() const { return opened.load(); }    ///< calls of `open`
   int finest_level(int map) const;                  ///< -1: nothing of that map (of the graph)
@@ -78,6 +82,7 @@ public:
 
 private:
   struct Stored;
+  Pack opened_pack(int map, int first_level) const;
   PackFacts about;
   Open opener;
   mutable std::mutex opening;

@@ -47,11 +47,16 @@ public:
   /// wraps. `out` has materials() entries; added with `weight`. Pixels beyond the map count for nothing.
   void add_shares(std::int64_t x, std::int64_t y, int level, double weight, std::span<double> out) const;
 
-private:
-  // Child squares nw, ne, sw, se: >= 0 a square, < 0 of one material, -1 - it; -1 - `count` beyond the map.
+  /// Child squares nw, ne, sw, se: >= 0 a square, < 0 of one material, -1 - it; -1 - materials() beyond the map.
   struct Square {
     std::int32_t child[4];
   };
+  /// The tree, for programs that walk it elsewhere: the square or material of the whole, whose side is a power of 2.
+  std::span<const Square> tree() const { return squares; }
+  std::int32_t tree_root() const { return root; }
+  std::int64_t tree_side() const { return side; }
+
+private:
   struct Builder;
 
   std::int32_t joined(const Square& square);

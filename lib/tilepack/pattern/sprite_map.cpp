@@ -84,6 +84,13 @@ void SpriteMap::remove(int number) {
   there = false;
 }
 
+std::vector<int> SpriteMap::numbers() const {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < sprites.size(); ++i)
+    if (sprites[i].first) found.push_back(static_cast<int>(i));
+  return found;
+}
+
 std::span<const int> SpriteMap::in_cell(PatternCell cell) const {
   const auto at = held.find({cell.y, cell.x});
   return at == held.end() ? std::span<const int>{} : std::span<const int>(at->second);

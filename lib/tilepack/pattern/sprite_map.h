@@ -37,6 +37,7 @@ public:
 
   PatternGrid grid() const { return cells; }
   const Sprite& sprite(int number) const { return sprites[static_cast<std::size_t>(number)].second; }
+  std::vector<int> numbers() const; ///< of the sprites that are there, rising
   std::size_t occupied_cells() const { return held.size(); }
 
   /// The numbers of the sprites that may show in a cell of the grid, rising.

@@ -19,7 +19,11 @@
 namespace tilepack {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{192} << 20;
+// "</" may not stand in a script: it would end it.
+void fill_in(std::string& page, std::string_view place, std::string_view text) {
+  for (std::size_t at = page.find(place); at != std::string::npos; at = page.find(place, at + text.size()))
+    page.replace(at, place.size(), text);
+}
 
 std::string base64(const std::vector<unsigned char>& bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -34,15 +38,6 @@ std::string base64(const std::vector<unsigned char>& bytes) {
       text += i + k > bytes.size() ? '=' : digits[word >> (18 - 6 * k) & 63];
   }
   return text;
-}
-
-std::string packed_bytes(const std::vector<unsigned char>& bytes) {
-  uLongf length = compressBound(static_cast<uLong>(bytes.size()));
-  std::vector<unsigned char> packed(length);
-  if (compress2(packed.data(), &length, bytes.data(), static_cast<uLong>(bytes.size()), 9) != Z_OK)
-    throw Error(ErrorKind::internal, "view", "zlib fails");
-  packed.resize(length);
-  return base64(packed);
 }
 
 // Light is stored by the sRGB curve, on which 8 bits suffice; all else as it is.
@@ -60,7 +55,7 @@ std::string levels_json(const PackedMap& map) {
     for (int y = 0; y < shown.height(); ++y)
       for (const float value : shown.row(y)) bytes.push_back(static_cast<unsigned char>(code_of(value, 255)));
     text += fmt::format("{}{{\"width\": {}, \"height\": {}, \"data\": \"{}\"}}", text.empty() ? "" : ",\n",
-                        shown.width(), shown.height(), packed_bytes(bytes));
+                        shown.width(), shown.height(), view_page_bytes(bytes));
   }
   return text;
 }
@@ -150,7 +145,7 @@ std::string ids_json(const Mapping& mapping) {
     bytes.push_back(static_cast<unsigned char>(id & 255));
     bytes.push_back(static_cast<unsigned char>(id >> 8));
   }
-  return fmt::format("\"{}\"", packed_bytes(bytes));
+  return fmt::format("\"{}\"", view_page_bytes(bytes));
 }
 
 void check_size(const Pack& pack) {
@@ -163,18 +158,34 @@ void check_size(const Pack& pack) {
   };
   count(pack.maps);
   if (pack.corner_pack) count(pack.corner_pack->maps);
-  if (bytes > most_bytes)
+  if (bytes > most_page_bytes)
     throw Error(ErrorKind::invalid_content, "view",
                 fmt::format("{} MiB of texels; a page holds {} at most: bake with a smaller {} or fewer {}",
-                            bytes >> 20, most_bytes >> 20, field("tile-size"), field("colors")));
-}
-
-void fill_in(std::string& page, std::string_view place, std::string_view text) {
-  for (std::size_t at = page.find(place); at != std::string::npos; at = page.find(place, at + text.size()))
-    page.replace(at, place.size(), text);
+                            bytes >> 20, most_page_bytes >> 20, field("tile-size"), field("colors")));
 }
 
 } // namespace
+
+std::string view_page_bytes(const std::vector<unsigned char>& bytes) {
+  uLongf length = compressBound(static_cast<uLong>(bytes.size()));
+  std::vector<unsigned char> packed(length);
+  if (compress2(packed.data(), &length, bytes.data(), static_cast<uLong>(bytes.size()), 9) != Z_OK)
+    throw Error(ErrorKind::internal, "view", "zlib fails");
+  packed.resize(length);
+  return base64(packed);
+}
+
+std::string page_with(const ViewPageSettings& settings, std::string_view kind, std::string data,
+                      std::string_view script) {
+  fill_in(data, "</", "<\\/");
+  std::string page(view_page_template());
+  fill_in(page, "{{SCENE}}", script.empty() ? "" : fmt::format("<script>\n{}</script>\n", script));
+  fill_in(page, "{{TITLE}}", escaped(settings.title));
+  fill_in(page, "{{HEAD}}",
+          escaped(fmt::format("{} · content of the {} {:016x}", settings.made_by, kind, settings.content)));
+  fill_in(page, "{{DATA}}", data);
+  return page;
+}
 
 std::string view_page(const Pack& pack, const ViewPageSettings& settings) {
   check_size(pack);
@@ -188,13 +199,7 @@ std::string view_page(const Pack& pack, const ViewPageSettings& settings) {
   data += "\"mappings\": " + mappings_json(pack, settings) + ",\n\"maps\": " + maps_json(pack.maps);
   data += ",\n\"corners\": " + (pack.corner_pack ? maps_json(pack.corner_pack->maps) : "null");
   data += ",\n\"ids\": " + ids_json(pack.mapping) + "}";
-  fill_in(data, "</", "<\\/"); // no text may end the script that holds it
-  std::string page(view_page_template());
-  fill_in(page, "{{TITLE}}", escaped(settings.title));
-  fill_in(page, "{{HEAD}}",
-          escaped(fmt::format("{} · content of the pack {:016x}", settings.made_by, settings.content)));
-  fill_in(page, "{{DATA}}", data);
-  return page;
+  return page_with(settings, "pack", data, {});
 }
 
 } // namespace tilepack

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tilepack {
 
@@ -25,7 +26,18 @@ struct ViewPageSettings {
 /// Error (invalid_content) for packs that a browser can't show: see shader_text(), and more than 192 MiB of texels.
 std::string view_page(const Pack& pack, const ViewPageSettings& settings);
 
-/// The page with its places open: {{TITLE}}, {{HEAD}}, {{DATA}}.
+/// The page around `data`, the JSON that it shows, of a "pack" or a "scene"; `script`: what stands before its own.
+std::string page_with(const ViewPageSettings& settings, std::string_view kind, std::string data,
+                      std::string_view script);
+
+/// Bytes as the page unpacks them: deflated, in base 64.
+std::string view_page_bytes(const std::vector<unsigned char>& bytes);
+
+/// The most bytes that a page holds unpacked.
+inline constexpr std::size_t most_page_bytes = std::size_t{192} << 20;
+
+/// The page with its places open: {{SCENE}}, {{TITLE}}, {{HEAD}}, {{DATA}}. And the script of scenes.
 std::string_view view_page_template();
+std::string_view view_scene_script();
 
 } // namespace tilepack

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "tilepack/pattern/pattern_values.h"
+#include "tilepack/shader/graph_program.h"
+
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+namespace tilepack {
+
+/// Writes a GraphProgram: graph_program() drives it.
+class GraphWriter {
+public:
+  explicit GraphWriter(const PatternGraph& of_graph) : graph(of_graph), values(of_graph, 0) {}
+
+  GraphProgram write();
+
+private:
+  friend struct ValueText;
+  friend struct TextureText;
+
+  /// `text` with every $NAME in it replaced.
+  static std::string filled(std::string_view text,
+                            std::initializer_list<std::pair<std::string_view, std::string>> names);
+  static std::string real(double value); ///< a literal
+  [[noreturn]] void refuse(NodeId node, const std::string& what) const;
+
+  std::string value_text(NodeId node); ///< of an index or number: index_N(Place p), number_N(Place p)
+  std::string texture_text(NodeId node, int map); ///< texture_N_M(Place p, vec4 d)
+
+  static std::string divided(const std::string& word, std::int64_t by); ///< word / by
+  static std::string rest(const std::string& word, std::int64_t by);    ///< word % by
+  std::string grid(PatternGrid of); ///< N of in_grid_N() and centre_N(), which are made for it
+  /// The cell `by` (an ivec2, two cells at most) from `cell`.
+  std::string neighbour(std::string_view cell, std::string_view by, PatternGrid grid) const;
+  std::string cell_count(PatternGrid grid) const;                         ///< "uvec2(w, h)"
+  std::string cells_a_unit(PatternGrid grid) const;                       ///< "vec4(…)", for derivatives
+  std::string hashed_index(const CellHash& hash, std::string_view cell);  ///< of a uvec2
+  std::string hashed_number(const CellHash& hash, std::string_view cell); ///< 0 to below 1
+  std::string number_or(NodeId node, std::string_view place, double otherwise) const;
+
+  // In `tables`; the first word's number.
+  std::string table(const std::vector<std::int32_t>& words, NodeId node);
+  std::string stored_map(const StoredMap& map, bool is_whole, NodeId node);
+  std::string permutation(const CellHash& hash);
+
+  /// Functions that read a source, made once a source, map and use; their names.
+  std::string pattern_reader(NodeId node, const std::shared_ptr<const PatternSource>& source, int map);
+  std::string wang_reader(NodeId node, const WangTexture& block, int map);
+  int sampler(GraphSampler::Kind kind, const std::shared_ptr<const PatternSource>& source, int map,
+              bool is_array);
+  int source_number(const std::shared_ptr<const PatternSource>& source);
+  bool is_vector_map(int map) const;
+
+  const PatternGraph& graph;
+  PatternValues values;
+  GraphProgram program;
+  GraphMapText* part = nullptr; ///< the text of a map that is being written
+  std::vector<std::shared_ptr<const PatternSource>> sources;
+  std::vector<std::string> readers;                        ///< names of functions that the part has
+  std::vector<std::pair<const void*, std::string>> placed; ///< maps that lie in the tables already
+  std::vector<PatternGrid> grids;
+  std::vector<std::string> wang_texts; ///< prefixes of lookups in `common`
+};
+
+} // namespace tilepack
