@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace tilepack::cli {
 namespace {
 
@@ -55,6 +57,13 @@ std::string loss_text(const PackedMap& map) {
 }
 
 } // namespace
+
+std::string title_of(const BakeJob& job) {
+  if (job.transition.empty()) return std::filesystem::path(job.sample).filename().string();
+  std::string title;
+  for (const std::string& name : material_names_of(job)) title += (title.empty() ? "" : " to ") + name;
+  return title;
+}
 
 // Only what could be better: an artist wants to know whether to look closer.
 std::string verdict_text(const BakeFacts& facts) {

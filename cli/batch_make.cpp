@@ -1,5 +1,7 @@
 #include "batch_make.h"
 
+#include "bake_judging.h"
+#include "bake_report.h"
 #include "batch_command.h"
 #include "console.h"
 #include "verb.h"
@@ -8,6 +10,7 @@
 #include "tilepack/batch/build_record.h"
 #include "tilepack/error/error.h"
 #include "tilepack/report/bake_page.h"
+#include "tilepack/report/bake_verdict.h"
 
 #include <fmt/format.h>
 
@@ -20,17 +23,25 @@ namespace {
 namespace fs = std::filesystem;
 
 void make_bake(const BakeJob& job, const Progress& progress) {
-  BakeSummary story{fs::path(job.sample).filename().string(), {}, {}};
+  BakeSummary story{title_of(job), {}, {}};
   JobWatch watch;
   watch.progress = [&](std::string_view, std::string_view stage, double done) {
     report(progress, stage, done);
   };
-  if (!job.report.empty())
-    watch.made = [&](const BakedJob& baked) { story.facts = bake_facts(baked.made, baked.samples); };
-  const BakedJob baked = run(job, watch);
-  if (job.report.empty()) return;
-  story.stages = baked.stages;
-  write_text_file(job.report, bake_page(story, baked.made, baked.samples));
+  judge(job, watch, story.facts, !job.report.empty(), {});
+  watch.page = [&](const BakedJob& baked) {
+    story.stages = baked.stages;
+    return bake_page(story, baked.made, baked.samples);
+  };
+  try {
+    run(job, watch);
+  } catch (const Error& error) {
+    const auto remarks = bake_verdict(story.facts).remarks;
+    if (error.kind() != ErrorKind::check_failed || remarks.empty()) throw;
+    throw Error(
+        error.kind(), job.place,
+        fmt::format("{} ({})", error.what_happened(), spelled(remarks.front().text, FieldSpelling::json)));
+  }
 }
 
 // Runs the words of a command line in this process; what it prints is added to `data`, also if it throws.

@@ -39,6 +39,10 @@ void Console::print(std::string_view data, std::string_view in_place) {
                             in_place.empty() ? "" : " is whole and in place"));
 }
 
+void Console::made(std::string_view line, std::string_view in_place) {
+  if (!quiet) print(std::string(printable(line)) + "\n", in_place);
+}
+
 void Console::note(std::string_view message) {
   if (!quiet) line("", "", message);
 }

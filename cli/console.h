@@ -30,6 +30,9 @@ public:
   /// `in_place`, what was made and stays all the same.
   void print(std::string_view data, std::string_view in_place = {});
 
+  /// A line for stdout on what was made and is in its place, a newline added; none if quiet. Throws as print() does.
+  void made(std::string_view line, std::string_view in_place);
+
   /// A line for stderr, a newline added.
   void note(std::string_view message);
   void warn(std::string_view message);

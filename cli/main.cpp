@@ -105,6 +105,20 @@ bool print_made(const std::vector<std::string>& arguments, Console& console) {
   return true;
 }
 
+// What someone meant who gave options before the verb.
+[[noreturn]] void refuse_option_first(const std::vector<std::string>& arguments) {
+  const auto verb = std::find_if(arguments.begin(), arguments.end(),
+                                 [](const std::string& word) { return find_verb(word) != nullptr; });
+  std::string meant;
+  if (verb != arguments.end()) {
+    meant = ": tilepack " + *verb;
+    for (auto word = arguments.begin(); word != arguments.end(); ++word)
+      if (word != verb) meant += ' ' + *word;
+  }
+  throw Error(ErrorKind::usage, "",
+              fmt::format("'{}' stands before the verb; options come after it{}", arguments[0], meant));
+}
+
 int run(const std::vector<std::string>& arguments, Console& console) {
   const std::string first = arguments.empty() ? "" : arguments[0];
   if (first.empty()) throw Error(ErrorKind::usage, "", "a verb is missing; `tilepack help` lists them");
@@ -120,6 +134,7 @@ int run(const std::vector<std::string>& arguments, Console& console) {
       return run_verb(verb_named(arguments[1]), {"--help"}, console);
     return 0;
   }
+  if (first.front() == '-') refuse_option_first(arguments);
   return run_verb(verb_named(first), {arguments.begin() + 1, arguments.end()}, console);
 }
 

@@ -159,8 +159,10 @@ int render_camera(const CameraArguments& arguments, const Texture& texture, bool
                   const RenderTarget& target, const std::string& output, Console& console) {
   const Progress progress = console.progress();
   StagedOutputs outputs;
-  draw_camera(arguments, texture, shows_color, target, outputs.add_file(output), progress);
+  const Size size = draw_camera(arguments, texture, shows_color, target, outputs.add_file(output), progress);
   outputs.commit(progress);
+  console.made(fmt::format("{}: {} x {} pixels, as a camera sees them", output, size.width, size.height),
+               output);
   return 0;
 }
 

@@ -1,4 +1,5 @@
 #include "bake_field_options.h"
+#include "bake_judging.h"
 #include "bake_report.h"
 #include "interrupt.h"
 #include "jobs.h"
@@ -12,7 +13,6 @@
 #include "tilepack/batch/file_watch.h"
 #include "tilepack/batch/job_content.h"
 #include "tilepack/batch/output_lock.h"
-#include "tilepack/report/advised_bake.h"
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/pack_summary.h"
 #include "tilepack/tileset/material_map.h"
@@ -94,23 +94,12 @@ BakeJob job_from(const BakeArguments& arguments) {
     job.encoding = arguments.encoding == "srgb" ? Encoding::srgb : Encoding::linear;
   job.channels = arguments.channels;
   job.max_texels = arguments.max_texels;
+  job.require = arguments.require;
+  job.apply_advice = arguments.apply_advice;
   job.folder = arguments.folder;
   job.report = arguments.report;
   job.depfile = arguments.depfile;
   return job;
-}
-
-constexpr int most_tries = 2; // with what the verdict advises
-
-// What is printed on stdout is for whoever wants to mend it.
-void refuse_worse(const BakeArguments& arguments, const BakeFacts& facts, Console& console) {
-  const BakeVerdict verdict = bake_verdict(facts);
-  if (verdict.grade <= enum_called<Grade>(arguments.require, "--require", "grade")) return;
-  console.print(arguments.printed.json() ? judged_json(facts) : verdict_text(facts));
-  throw Error(ErrorKind::check_failed, "",
-              fmt::format("the set is {}, and --require asks for {}: nothing was written{}",
-                          name_of(verdict.grade), arguments.require,
-                          arguments.apply_advice ? "" : "; --apply-advice tries what the verdict names"));
 }
 
 // Where there is a verb for it.
@@ -128,14 +117,6 @@ void refuse_pattern(const std::string& sample) {
               "is a pattern, and a bake takes one sample: name a file or a folder" + many_samples());
 }
 
-// "pebbles.png", or "pebbles.png to sand.png".
-std::string title_of(const BakeJob& job) {
-  if (job.transition.empty()) return std::filesystem::path(job.sample).filename().string();
-  std::string title;
-  for (const std::string& name : material_names_of(job)) title += (title.empty() ? "" : " to ") + name;
-  return title;
-}
-
 void bake_once(const BakeArguments& arguments, const BakeJob& job, Console& console) {
   const Progress waiting = console.progress();
   std::optional<OutputLock> lock;
@@ -148,24 +129,12 @@ void bake_once(const BakeArguments& arguments, const BakeJob& job, Console& cons
     draw(stage, done);
   };
   watch.note = [&](std::string_view line) { console.note(spelled(line, FieldSpelling::option)); };
-  if (arguments.transition && arguments.apply_advice)
-    throw Error(ErrorKind::usage, "--apply-advice", "does not go with --transition; bake again by hand");
-  if (arguments.transition && !arguments.require.empty())
-    watch.accept = [&](const BakedJob& baked) {
-      story.facts = bake_facts(baked.made, baked.samples);
-      refuse_worse(arguments, story.facts, console);
-    };
-  else if (arguments.apply_advice || !arguments.require.empty())
-    watch.make = [&](std::span<const SampleMap> samples, const BakeOptions&, const Progress& progress) {
-      AdvisedBake best =
-          advised_bake(samples, settings_of(job), arguments.apply_advice ? most_tries : 0, progress);
-      for (const std::string& line : best.story) console.note(spelled(line, FieldSpelling::option));
-      if (!arguments.require.empty()) refuse_worse(arguments, best.facts, console);
-      story.facts = std::move(best.facts);
-      return std::move(best.made);
-    };
-  else
-    watch.made = [&](const BakedJob& baked) { story.facts = bake_facts(baked.made, baked.samples); };
+  judge(job, watch, story.facts, true,
+        {[&](std::string_view line) { console.note(spelled(line, FieldSpelling::option)); },
+         // What is printed on stdout is for whoever wants to mend it.
+         [&](const BakeFacts& facts) {
+           console.print(arguments.printed.json() ? judged_json(facts) : verdict_text(facts));
+         }});
   watch.page = [&](const BakedJob& baked) {
     story.stages = baked.stages;
     return bake_page(story, baked.made, baked.samples);

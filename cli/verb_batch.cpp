@@ -275,7 +275,11 @@ Verb batch_verb() {
           "  tilepack batch textures.json --only 'rocks/*' --watch\n"
           "  tilepack batch textures.json --emit ninja -o build.ninja && ninja\n"
           "A manifest: {\"format\": \"tilepack-manifest\", \"version\": 1,\n"
-          "  \"jobs\": [{\"samples\": \"textures/*.png\", \"output\": \"packs/{stem}\"}]}\n"
+          "  \"jobs\": [{\"samples\": \"textures/*.png\", \"output\": \"packs/{stem}\"},\n"
+          "           {\"verb\": \"shader\", \"packs\": \"packs/*\", \"options\": {\"lang\": \"glsl\"},\n"
+          "            \"output\": \"shaders/{stem}.glsl\"}]}\n"
+          "Verbs of entries: bake (the default), pack, render, compose, shader, view, inspect, validate, "
+          "compare.\n"
           "Exit code: the highest of all entries that failed.\n",
           declare_batch};
 }

@@ -8,6 +8,8 @@
 #include "tilepack/bake/bake_fields.h"
 #include "tilepack/bake/depfile.h"
 #include "tilepack/bake/hand_drawn_set.h"
+#include "tilepack/bake/map_kinds.h"
+#include "tilepack/bake/material_read.h"
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/text_file.h"
 #include "tilepack/error/error.h"
@@ -30,7 +32,7 @@ struct PackArguments {
   std::vector<std::string> tiles;
   std::string folder;
   std::string colors;
-  std::string name = "color";
+  std::string name; ///< empty: as the role
   std::string role = "color";
   PrintedFormat printed;
   std::string depfile;
@@ -48,6 +50,13 @@ BakeOptions options_from(const PackArguments& arguments, const TileColors& tiles
   for (const auto& [field, value] : arguments.fields)
     settings.push_back({field, value, tilepack::field(field), ErrorKind::usage});
   return bake_options(settings);
+}
+
+// "normal", "orm", "normal-dx": what the drawings hold, and what their map is called unless told otherwise.
+MaterialFile map_of(const PackArguments& arguments) {
+  MaterialFile map = meant_map(arguments.role, "role");
+  if (!arguments.name.empty()) map.name = arguments.name;
+  return map;
 }
 
 void check_agreement(const TileSet& set, double tolerance, Console& console) {
@@ -80,12 +89,12 @@ int run_pack(PackArguments& arguments, Console& console) {
       parsed_color_list(read_text_file(arguments.colors, "the list of colors"), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);
   std::vector<HandDrawnTile> drawings;
-  const Role role = enum_called<Role>(arguments.role, "--role", "role");
+  const MaterialFile map = map_of(arguments);
   for (const std::string& file : arguments.tiles)
-    drawings.push_back({file, read_noted(file, arguments.reading, role, console)});
-  for (const std::string& note : complete_drawings(drawings, role))
+    drawings.push_back({file, read_noted(file, arguments.reading, map.role, console)});
+  for (const std::string& note : complete_drawings(drawings, map.role))
     console.note(spelled(note, FieldSpelling::option));
-  TileSet set = drawn_set(drawings, tiles, arguments.name, role);
+  TileSet set = drawn_set(drawings, tiles, map);
   const PackingPlan plan = planned_packing(options, set.tiles, set.tile_size);
   check_agreement(set, arguments.tolerance, console);
 
@@ -119,9 +128,11 @@ Action declare_pack(Options& options) {
               "\"west\": 0} or {\"nw\": 0, \"ne\": 0, \"sw\": 0, \"se\": 0}")
       .value("FILE")
       .required();
-  options.option("--name", arguments->name, "name of the map in the pack (default color)").value("NAME");
-  options.option("--role", arguments->role, "what the values mean (default color)")
-      .one_of(alternatives_of<Role>())
+  options.option("--name", arguments->name, "name of the map in the pack (default: as its role)")
+      .value("NAME");
+  options
+      .option("--role", arguments->role,
+              fmt::format("what the values mean (default color): data, or one of {}", listed_kinds()))
       .value("ROLE");
   options
       .option("--tolerance", arguments->tolerance,

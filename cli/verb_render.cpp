@@ -119,6 +119,9 @@ int run_render(const RenderArguments& arguments, Console& console) {
   }
   writer.finish();
   outputs.commit(progress);
+  console.made(
+      fmt::format("{}: {} x {} pixels of the {} map", arguments.output, size.width, size.height, packed.name),
+      arguments.output);
   return 0;
 }
 

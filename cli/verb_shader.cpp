@@ -41,10 +41,13 @@ int run_shader(const ShaderArguments& a, Console& console) {
   check_outputs(std::vector<OutputFile>{{"--output", a.output}}, files_of_pack(a.pack));
   const PackDescription description = read_pack_description(a.pack);
   const std::string text = shader_text(description.pack, settings, command_of(a), pack_content_hash(a.pack));
-  if (a.output.empty())
+  if (a.output.empty()) {
     console.print(text);
-  else
-    write_text_file(a.output, text);
+    return 0;
+  }
+  write_text_file(a.output, text);
+  console.made(fmt::format("{}: the lookup of {} in {}, {} bytes", a.output, a.pack, a.language, text.size()),
+               a.output);
   return 0;
 }
 

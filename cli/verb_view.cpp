@@ -46,6 +46,9 @@ int view_scene(const ViewArguments& a, Console& console) {
         "from afar the page shows an overview with a texel every {:.0f} cells; pixels of 4 to {:.0f} "
         "cells are blurred, which `compose` draws sharp",
         page.cells_a_texel, page.cells_a_texel));
+  console.made(fmt::format("{}: a page of {}, {:.1f} MB, to be opened in a browser", a.output, a.pack,
+                           static_cast<double>(page.text.size()) / 1e6),
+               a.output);
   return 0;
 }
 
@@ -66,7 +69,11 @@ int run_view(const ViewArguments& a, Console& console) {
   if (a.metres) settings.made_by += fmt::format(" --metres {}", *a.metres);
   settings.content = pack_content_hash(a.pack);
   settings.metres = a.metres;
-  write_text_file(a.output, view_page(pack, settings));
+  const std::string page = view_page(pack, settings);
+  write_text_file(a.output, page);
+  console.made(fmt::format("{}: a page of {}, {:.1f} MB, to be opened in a browser", a.output, a.pack,
+                           static_cast<double>(page.size()) / 1e6),
+               a.output);
   return 0;
 }
 

@@ -37,12 +37,13 @@ void write_photo(const std::filesystem::path& folder, const Subject& subject) {
               Encoding::srgb);
 }
 
-// Heights keep 16 bits and span the whole range; the normals are those of the heights.
+// Heights keep 16 bits and span the whole range; the normals are those of the heights, upright on the whole.
 void write_rock(const std::filesystem::path& folder) {
   const samples::Surface surface = samples::rock(side, oversampling, 1);
   const Image albedo = samples::shrunken(surface.albedo, oversampling);
   Image height = samples::shrunken(surface.height, oversampling);
   for (float& v : height.data()) v /= oversampling;
+  samples::make_upright(height);
   write_image(folder / "rock_albedo.png", from_linear(albedo, Encoding::srgb), Depth::u8, Encoding::srgb);
   write_image(folder / "rock_normal.png", samples::normals_of(height, 1.0), Depth::u8, Encoding::linear);
   write_image(folder / "rock_roughness.png", samples::shrunken(surface.roughness, oversampling), Depth::u8,

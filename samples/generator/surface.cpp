@@ -115,6 +115,26 @@ Image normals_of(const Image& height, double scale) {
   return result;
 }
 
+void make_upright(Image& height) {
+  constexpr int steps = 16; // of Newton's method, which needs far fewer
+  for (int step = 0; step < steps; ++step) {
+    Slope mean, rate; // of the normals, and how fast they turn with the plane
+    for (int y = 0; y < height.height(); ++y)
+      for (int x = 0; x < height.width(); ++x) {
+        const Slope slope = slope_at(height, x, y);
+        const double square = slope.x * slope.x + slope.y * slope.y + 1;
+        const double length = std::sqrt(square);
+        mean.x += slope.x / length;
+        mean.y += slope.y / length;
+        rate.x += (1 + slope.y * slope.y) / (square * length);
+        rate.y += (1 + slope.x * slope.x) / (square * length);
+      }
+    for (int y = 0; y < height.height(); ++y)
+      for (int x = 0; x < height.width(); ++x)
+        height.texel(x, y)[0] -= static_cast<float>(mean.x / rate.x * x + mean.y / rate.y * y);
+  }
+}
+
 Image shrunken(const Image& image, int factor) {
   Image result(image.width() / factor, image.height() / factor, image.channels());
   for (int y = 0; y < result.height(); ++y)

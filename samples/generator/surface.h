@@ -43,6 +43,9 @@ Surface surface_of(int size, int oversampling, const std::function<Point(double 
 /// hollows, a little sensor noise. Linear, 3 channels.
 tilepack::Image photographed(const Surface& surface, std::uint64_t seed);
 
+/// Takes out the plane that leans the normals of the height field to one side: on the whole they are upright then.
+void make_upright(tilepack::Image& height);
+
 /// Unit normals of the height field stored as n * 0.5 + 0.5, x east, y north (up), z towards the camera.
 tilepack::Image normals_of(const tilepack::Image& height, double scale);
 

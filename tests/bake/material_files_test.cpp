@@ -198,8 +198,25 @@ TEST_CASE("what looks like a map of the material and is not taken is passed over
   CHECK(passed_over({"w_col_1_2k.png", "w_col_2_2k.png", "w_nor_2k.png"}) == List{"w_col_2_2k.png -> color"});
   CHECK(passed_over({"w_albedo_1k.png", "w_albedo_2k.png"}) == List{"w_albedo_1k.png -> color"});
   CHECK(passed_over({"rockwall_albedo.png", "rock_normal.png"}) == List{"rock_normal.png -> normal"});
-  CHECK(passed_over({"w_albedo.png", "w_preview.png", "photo.png"}).empty());
+  CHECK(passed_over({"w_albedo.png", "w_preview.png", "sphere.png"}).empty());
   CHECK(passed_over({"w_albedo.png", "w_normal.png", "other_albedo.png"}, "w").empty());
+}
+
+TEST_CASE("images that are no maps of the material are told apart, and without further maps nothing says "
+          "which is meant") {
+  const List mixed{"w_albedo.png", "w_normal.png", "w_preview.png", "sphere.jpg", "photo.png", "sand.png"};
+  const FoundMaterial found = material_files(mixed, "", "art");
+  CHECK(found.unlike == List{"photo.png", "sand.png"});
+  const std::string note = note_on_unlike(found, "art");
+  for (const char* part :
+       {"'w' (2 of its images)", "photo.png, sand.png are passed over", "\"samples\": \"art/*.png\""}) {
+    CAPTURE(note);
+    CHECK(note.find(part) != std::string::npos);
+  }
+  CHECK(material_files(mixed, "w", "art").unlike.empty());
+  const std::string refused = fault({"w_albedo.png", "photo.png", "sand.png"});
+  CHECK(refused.find("w_albedo.png, and photo.png, sand.png; name the one to bake") != std::string::npos);
+  CHECK(recognised({"w_albedo.png", "photo.png"}, "w").size() == 1);
 }
 
 TEST_CASE("a resolution picks the files that state it") {

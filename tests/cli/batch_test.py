@@ -97,6 +97,90 @@ class WhatIsMade(Batch):
         self.noise_png("materials/rock/rock_normal.png", 48, 48)
         self.assertIn("map normal added", self.plan("m.json")["packs/rock"])
 
+    def test_a_pack_with_its_shader_page_and_checks_is_one_build(self):
+        self.samples("a", "b")
+        self.manifest({"samples": "in/*.png", "output": "packs/{stem}"},
+                      {"verb": "shader", "packs": "packs/*", "options": {"lang": "glsl"}, "output": "shaders/{stem}.glsl"},
+                      {"verb": "view", "packs": "packs/*", "options": {"metres": 2}, "output": "pages/{stem}.html"},
+                      {"verb": "validate", "packs": "packs/*", "output": "checks/{stem}.txt"})
+        plan = self.plan("m.json")
+        self.assertIn("packs/a is made again", plan["shaders/a.glsl"])
+        self.assertEqual(self.counts("m.json", "--depfile", "m.d"), {"built": 8})
+        self.run_tilepack("shader", "packs/a", "--lang", "glsl", "-o", "alone.glsl")
+        self.run_tilepack("view", "packs/a", "--metres", "2", "-o", "alone.html")
+        made = self.contents()
+        self.assertEqual(made["shaders/a.glsl"], made["alone.glsl"])
+        self.assertEqual(made["pages/a.html"], made["alone.html"])
+        self.assertEqual(self.counts("m.json"), {"current": 8})
+        self.assertIn(b"packs/a/pack.json", made["m.d"])
+        self.manifest({"samples": "in/*.png", "output": "packs/{stem}"},
+                      {"verb": "shader", "packs": "packs/*", "options": {"lang": "hlsl"}, "output": "shaders/{stem}.glsl"},
+                      {"verb": "view", "packs": "packs/*", "options": {"metres": 2}, "output": "pages/{stem}.html"})
+        self.assertEqual(self.plan("m.json"), {f"shaders/{name}.glsl": "option lang: glsl → hlsl" for name in "ab"})
+        self.noise_png("in/a.png", 48, 48, seed=77)
+        self.assertEqual(set(self.plan("m.json")), {"packs/a", "shaders/a.glsl", "pages/a.html", "shaders/b.glsl"})
+        for kind in ("ninja", "make"):
+            rules = self.batch("m.json", "--emit", kind)
+            self.assertIn("shaders/a.glsl", rules)
+            self.assertIn("pages/b.html", rules)
+
+    def test_texts_that_name_their_pack_are_not_taken_from_another_of_the_same_content(self):
+        self.samples("a")
+        shutil.copy(self.path("in/a.png"), self.path("in/b.png"))
+        self.manifest({"samples": "in/*.png", "output": "packs/{stem}"},
+                      {"verb": "shader", "packs": "packs/*", "options": {"lang": "c"}, "output": "shaders/{stem}.h"})
+        self.batch("m.json", "--cache", "cache", "--jobs", 1)
+        self.assertIn(b"shader b --lang c", self.contents()["shaders/b.h"])
+
+    def test_a_transition_is_an_entry(self):
+        self.samples("sand", "grass")
+        self.noise_png("in/grass.png", 40, 56, seed=5)
+        self.manifest({"transition": ["in/sand.png", "in/grass.png"], "output": "packs/{stem}_shore"},
+                      {"verb": "validate", "packs": "packs/*", "output": "checks/{stem}.txt"})
+        self.assertEqual(self.counts("m.json"), {"built": 2})
+        self.run_tilepack("bake", "--transition", "in/sand.png", "in/grass.png", "-o", "alone", "--tile-size", 16, "--effort", 0,
+                          "--virtual-size", 8)
+        made = {os.path.basename(name): data for name, data in self.contents("packs/sand_shore").items() if not name.endswith(".build")}
+        self.assertEqual(made, {os.path.basename(name): data for name, data in self.contents("alone").items()})
+        self.assertEqual(self.counts("m.json"), {"current": 2})
+        os.utime(self.path("in/grass.png"), (1, 1))
+        self.assertEqual(self.counts("m.json"), {"current": 2})
+        self.noise_png("in/grass.png", 40, 56, seed=6)
+        self.assertEqual(self.plan("m.json")["packs/sand_shore"], "material grass color changed")
+        rules = self.batch("m.json", "--emit", "ninja")
+        self.assertIn("in/sand.png", rules)
+        self.assertIn("in/grass.png", rules)
+        # Materials that are folders: a map that comes along counts.
+        os.makedirs(self.path("rock"))
+        os.makedirs(self.path("moss"))
+        for name in ("rock", "moss"):
+            self.noise_png(f"{name}/{name}_albedo.png", 48, 48)
+        self.manifest({"transition": ["rock", "moss"], "output": "packs/two"})
+        self.assertEqual(self.counts("m.json"), {"built": 1})
+        for name in ("rock", "moss"):
+            self.noise_png(f"{name}/{name}_height.png", 48, 48, channels=1)
+        self.assertIn("material moss height added", self.plan("m.json")["packs/two"])
+
+    def test_a_verdict_that_is_asked_for_fails_an_entry_and_advice_is_taken(self):
+        self.samples("a")
+        poor = {"interior": "quilt", "tile-size": 40, "effort": 0}
+        self.manifest({"sample": "in/a.png", "options": poor, "output": "packs/a"})
+        self.batch("m.json")
+        good = {name: data for name, data in self.contents("packs/a").items() if not name.endswith(".build")}
+        self.manifest({"sample": "in/a.png", "options": {**poor, "require": "good"}, "output": "packs/a"},
+                      {"verb": "render", "packs": "packs/*", "output": "previews/{stem}.png"})
+        told = self.batch("m.json", code=5)
+        self.assertIn('the set is poor, and "require" asks for good: nothing was written; "apply-advice" tries', told)
+        self.assertEqual({name: data for name, data in self.contents("packs/a").items() if not name.endswith(".build")}, good)
+        self.assertFalse(os.path.exists(self.path("previews/a.png")))
+        self.manifest({"sample": "in/a.png", "options": {**poor, "apply-advice": True}, "output": "packs/a"})
+        self.assertEqual(self.plan("m.json"), {"packs/a": "option apply-advice: unset → true"})
+        self.assertEqual(self.counts("m.json"), {"built": 1})
+        self.run_tilepack("bake", "in/a.png", "-o", "alone", "--interior", "quilt", "--tile-size", 40, "--effort", 0,
+                          "--virtual-size", 8, "--apply-advice")
+        self.assertEqual(self.contents()["packs/a/color_0.png"], self.contents()["alone/color_0.png"])
+        self.assertEqual(self.counts("m.json"), {"current": 1})
+
     def test_a_manifest_may_lie_elsewhere(self):
         self.samples("a")
         os.makedirs(self.path("art"))
@@ -240,12 +324,19 @@ class Failures(Batch):
                 ('{"verb": "render", "pack": "b.png", "output": "b.png"}', 3, ["m.json:4: jobs[1]", "reads what it writes"]),
                 ('{"sample": "in/a.png", "output": "{name}"}', 3, ["m.json:4: jobs[1].output", "{stem}"]),
                 ('{"sample": "in/a.png", "maps": {"nromal": "x.png"}, "output": "b"}', 3, ["m.json:4: jobs[1].maps.nromal"]),
+                ('{"transition": ["in/a.png"], "output": "b"}', 3, ["m.json:4: jobs[1].transition"]),
+                ('{"transition": ["in/a.png", "in/b.png"], "sample": "in/a.png", "output": "b"}', 3, ["m.json:4: jobs[1]", 'both "transition" and "sample"']),
+                ('{"transition": ["in/a.png", "in/b.png"], "maps": {"normal": "n.png"}, "output": "b"}', 3, ['both "transition" and "maps"']),
+                ('{"sample": "in/a.png", "output": "b",\n "options": {"transition": true}}', 3, ["m.json:5", '"transition": ["A", "B"]']),
+                ('{"verb": "view", "pack": "b", "output": "b/page.html"},\n {"sample": "in/a.png", "output": "b"}', 3, ["lies in the pack"]),
                 ('{', 3, ["m.json", "line 5"])):
             with self.subTest(entry):
                 self.write("m.json", good % entry)
                 self.refused("batch", "m.json", code=code, saying=saying)
         for entry, saying in (
-                ('{"sample": "in/a.png", "output": "b",\n "options": {"require": "good"}}', 'm.json:5: "require": is taken on the command line alone'),
+                ('{"sample": "in/a.png", "output": "b",\n "options": {"require": "best"}}', 'm.json:5: "require": \'best\' is not allowed; it must be good or fair'),
+                ('{"sample": "in/a.png", "output": "b",\n "options": {"apply-advice": "yes"}}', 'm.json:5: "apply-advice": \'yes\' is not allowed'),
+                ('{"transition": ["in/a.png", "in/a.png"], "output": "b",\n "options": {"apply-advice": true}}', '"apply-advice" does not go with a transition'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"sede": 1}}', 'm.json:5: "sede": is no option of bake; did you mean "seed"?'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": "x"}}', 'm.json:5: "seed": \'x\' is not allowed'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": [1, 2]}}', 'm.json:5: "seed": has several values'),
@@ -253,7 +344,7 @@ class Failures(Batch):
             with self.subTest(entry):
                 self.write("m.json", good % entry)
                 self.assertIn(saying, self.batch("m.json", code=3))
-        self.assertIn("missing.json", self.run_tilepack("batch", "missing.json", code=2).stderr)
+        self.assertIn("missing.json: there is no such file", self.run_tilepack("batch", "missing.json", code=2).stderr)
 
     def test_a_full_disk_and_inputs_that_vanish_leave_old_packs_whole(self):
         self.samples("a", "b")
@@ -286,6 +377,9 @@ class Failures(Batch):
         jsonschema.Draft7Validator.check_schema(schema)
         self.manifest({"samples": ["in/*.png"], "output": "packs/{stem}", "options": {"seed": 3}},
                       {"verb": "pack", "tiles": ["a.png"], "output": "p", "options": {"colors": "c.json"}},
+                      {"transition": ["a.png", "b.png"], "output": "t", "options": {"require": "fair"}},
+                      {"verb": "shader", "packs": "p/*", "output": "{stem}.glsl", "options": {"lang": "glsl"}},
+                      {"verb": "view", "pack": "p/a", "output": "a.html"},
                       {"verb": "compare", "a": "p", "b": "p", "output": "same.txt"}, preset="wall", verbs={"render": {"scale": 1}})
         jsonschema.validate(self.read_json("m.json"), schema)
         listed = schema["definitions"]["job"]["properties"]["verb"]["enum"]

@@ -30,6 +30,8 @@ class FirstHour(CommandCase):
             (("textures/gravel.png",), "tilepack bake textures/gravel.png -o gravel.pack"),
             ((".",), "tilepack bake . -o material.pack"),
             (("insp",), "did you mean 'inspect'?"),
+            (("-q", "bake", "g.png", "-o", "a"), "options come after it: tilepack bake -q g.png -o a"),
+            (("--quiet", "g.png"), "'--quiet' stands before the verb; options come after it"),
         )
         for arguments, saying in cases:
             with self.subTest(arguments=arguments):
@@ -38,6 +40,53 @@ class FirstHour(CommandCase):
             with self.subTest(guess=guess):
                 self.assertNotIn("did you mean", self.refused("bake", g, "-o", "a", guess, code=1))
         self.assertNotIn("report-format", self.refused("bake", g, "-o", "a", "--report-formt", "json", code=1).replace("report-formt", ""))
+
+    def test_texts_that_are_not_there_are_said_not_to_be_there(self):
+        self.noise_png("g.png")
+        self.refused("batch", "nope.json", code=2, saying="nope.json: there is no such file")
+        self.refused("compose", "nope.json", "-o", "a.png", code=2, saying="nope.json: there is no such file")
+        self.refused("pack", "g.png", "-o", "a", "--colors", "nope.json", code=2, saying="there is no such file, which would be the list of colors")
+        os.mkdir(self.path("folder"))
+        self.refused("batch", "folder", code=2, saying="is a file, and this a folder")
+
+    def test_what_was_made_is_said_in_a_line(self):
+        self.run_tilepack("bake", self.noise_png("g.png"), "-o", "g.pack", *SMALL)
+        for arguments, said in (
+                (("render", "g.pack", "-o", "a.png", "--rect", "0,0,40,30"), "a.png: 40 x 30 pixels of the color map\n"),
+                (("render", "g.pack", "-o", "b.png", "--camera", "0,1,0,0,1,-6,0,1,0,60", "--size", "64x48"), "b.png: 64 x 48 pixels, as a camera sees them\n"),
+                (("shader", "g.pack", "-o", "g.glsl", "--lang", "glsl"), None),
+                (("view", "g.pack", "-o", "g.html"), None)):
+            with self.subTest(arguments=arguments):
+                done = self.run_tilepack(*arguments)
+                self.assertEqual(done.stderr, "")
+                self.assertRegex(done.stdout, rf"\A{re.escape(arguments[3])}: .+\n\Z")
+                self.assertEqual(done.stdout, said or done.stdout)
+                quiet = self.run_tilepack(*arguments, "-q")
+                self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
+        # What is asked for on stdout is all that stands there.
+        text = self.run_tilepack("shader", "g.pack", "--lang", "glsl").stdout
+        with open(self.path("g.glsl"), encoding="utf-8") as stream:
+            self.assertEqual(text, stream.read())
+
+    def test_a_folder_of_unlike_pictures_is_no_material(self):
+        os.mkdir(self.path("art"))
+        for name in ("gravel", "sand", "rock_albedo", "rock_normal"):
+            self.noise_png(f"art/{name}.png")
+        done = self.run_tilepack("bake", "art", "-o", "a", *SMALL)
+        self.assertIn("art is taken as the material 'rock' (2 of its images); gravel.png, sand.png are passed over", done.stderr)
+        self.assertIn('"samples": "art/*.png"', done.stderr)
+        self.assertNotIn("passed over", self.run_tilepack("bake", "art/rock", "-o", "a", *SMALL).stderr)
+        os.remove(self.path("art/rock_normal.png"))
+        self.refused("bake", "art", "-o", "b", *SMALL, code=3,
+                     saying=("rock_albedo.png, and gravel.png, sand.png", "name the one to bake", '"samples": "art/*.png"'))
+        self.run_tilepack("bake", "art/rock", "-o", "b", *SMALL)
+        os.remove(self.path("art/rock_albedo.png"))
+        self.refused("bake", "art", "-o", "c", *SMALL, code=3, saying=("gravel.png, sand.png", '"samples": "art/*.png"'))
+        # Pictures of the material as a whole are no samples.
+        os.mkdir(self.path("moss"))
+        for name in ("moss_color", "moss_preview", "sphere"):
+            self.noise_png(f"moss/{name}.png")
+        self.assertNotIn("passed over", self.run_tilepack("bake", "moss", "-o", "d", *SMALL).stderr)
 
     def test_a_pack_named_in_place_of_a_verb_is_inspected(self):
         self.run_tilepack("bake", self.noise_png("g.png"), "-o", "g.pack", *SMALL)

@@ -53,6 +53,24 @@ class Pack(CommandCase):
         self.write_json("colors.json", [dict(zip(("north", "east", "south", "west"), tile)) for tile in tiles])
         return names
 
+    def test_packed_kinds_are_roles_as_of_bake(self):
+        names = []
+        for i, tile in enumerate(self.complete()):
+            names.append(self.noise_png(f"orm_{i:02}.png", SIDE, SIDE, seed=1))
+        self.write_json("colors.json", [dict(zip(("north", "east", "south", "west"), tile)) for tile in self.complete()])
+        for role, contents in (("orm", ["ao", "roughness", "metallic"]), ("arm", ["ao", "roughness", "metallic"]),
+                               ("rma", ["roughness", "metallic", "ao"]), ("mrao", ["metallic", "roughness", "ao"])):
+            with self.subTest(role):
+                self.run_tilepack("pack", *names, "-o", role, "--colors", "colors.json", "--virtual-size", "8", "--role", role)
+                made = self.read_json(f"{role}/pack.json")["maps"][0]
+                self.assertEqual((made["name"], made["role"], made["contents"], made["encoding"]), (role, "data", contents, "linear"))
+        self.run_tilepack("pack", *names, "-o", "n", "--colors", "colors.json", "--virtual-size", "8", "--role", "normal-dx")
+        made = self.read_json("n/pack.json")["maps"][0]
+        self.assertEqual((made["name"], made["role"], made["normal_y"]), ("normal", "normal", "down"))
+        self.run_tilepack("pack", *names, "-o", "m", "--colors", "colors.json", "--virtual-size", "8", "--role", "orm", "--name", "mine")
+        self.assertEqual(self.read_json("m/pack.json")["maps"][0]["name"], "mine")
+        self.refused("pack", *names, "-o", "x", "--colors", "colors.json", "--role", "omr", code=1, saying=("--role", "did you mean 'orm'?", "mrao"))
+
     def complete(self):
         return list(itertools.product((0, 1), repeat=4))
 

@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import shutil
 import subprocess
 import tempfile
@@ -102,7 +103,7 @@ class Render(unittest.TestCase):
     def rendered(self, *options):
         result = self.run_render(*options)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stdout, "")
+        self.assertRegex(result.stdout, rf"\A{re.escape(self.file)}: \d+ x \d+ pixels of the \w+ map\n\Z")
         self.assertEqual(result.stderr, "")
         return read_png(self.file)
 

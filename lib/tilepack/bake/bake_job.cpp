@@ -292,8 +292,9 @@ std::vector<std::string> notes_on_material(const BakeJob& job) {
   std::vector<std::string> notes;
   std::vector<PassedOver> list;
   for (const std::string& sample : job.transition.empty() ? std::vector{job.sample} : job.transition) {
-    const std::vector<PassedOver> passed = sample_files(sample).passed_over;
-    list.insert(list.end(), passed.begin(), passed.end());
+    const FoundMaterial found = sample_files(sample);
+    list.insert(list.end(), found.passed_over.begin(), found.passed_over.end());
+    if (!found.unlike.empty()) notes.push_back(note_on_unlike(found, sample));
   }
   std::erase_if(list, [&](const PassedOver& over) {
     return std::any_of(job.maps.begin(), job.maps.end(), [&](const MaterialFile& map) {
@@ -335,6 +336,9 @@ std::string canonical_options(const BakeJob& job) {
   }
   if (!job.transition.empty())
     lines["transition"] = fmt::format("{}", fmt::join(material_names_of(job), ","));
+  // Absent where not asked for, so that packs of older records stay current.
+  if (!job.require.empty()) lines["require"] = job.require;
+  if (job.apply_advice) lines["apply-advice"] = "true";
   lines["channels"] = job.channels;
   lines["encoding"] = job.encoding ? std::string(name_of(*job.encoding)) : "";
   lines["version"] = TILEPACK_VERSION;

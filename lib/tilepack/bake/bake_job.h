@@ -27,6 +27,9 @@ namespace tilepack {
 /// Paths are relative to the current folder. Every Error that blames a field is passed on with the place where
 /// the field was set, however late it is found out: that of the setting ("wall.json: \"layout\""), else
 /// `place` with the field's name, else field("layout") as it came.
+///
+/// Verdicts are found by rooms above this one: `require` and `apply_advice` are kept by the JobWatch that whoever runs
+/// the job gives it.
 struct BakeJob {
   std::string name = {};                    ///< what progress calls it; may be empty
   std::string sample = {};                  ///< an image, or what else sample_files() takes
@@ -37,6 +40,8 @@ struct BakeJob {
   std::optional<Encoding> encoding = {};    ///< of color samples; unset: as their files say
   std::string channels = {}; ///< of color samples, by name: "R,G,B"; empty: as channel_choice.h has it
   std::int64_t max_texels = usual_most_texels; ///< samples of more are refused before memory is taken
+  std::string require = {};                    ///< worst grade that is kept, "good" or "fair"; empty: any
+  bool apply_advice = false;                   ///< bake again with what the verdict advises
   std::string folder = {};                     ///< of the pack
   std::string report = {};                     ///< page about the pack, FILE.html; empty: none
   std::string depfile = {};                    ///< rule for make or ninja; empty: none

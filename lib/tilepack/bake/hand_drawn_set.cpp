@@ -83,7 +83,7 @@ std::vector<std::string> complete_drawings(std::vector<HandDrawnTile>& drawings,
 }
 
 TileSet drawn_set(std::span<const HandDrawnTile> drawings, const TileColors& tiles,
-                  const std::string& map_name, Role role) {
+                  const MaterialFile& map_made) {
   if (drawings.size() != static_cast<std::size_t>(tile_count(tiles)))
     throw Error(ErrorKind::invalid_content, "colors",
                 fmt::format("the list has {} entries, and there are {} drawings; give one entry a drawing",
@@ -117,7 +117,13 @@ TileSet drawn_set(std::span<const HandDrawnTile> drawings, const TileColors& til
         return TileColors(reordered);
       },
       tiles);
-  TileMap map{map_name, role, is_light(role) ? first.encoding : Encoding::linear, first.depth, {}};
+  MapFormat format{map_made.name,
+                   map_made.role,
+                   is_light(map_made.role) ? first.encoding : Encoding::linear,
+                   first.depth,
+                   filled_contents(map_made.contents, first.image.channels()),
+                   map_made.normal_y};
+  TileMap map(std::move(format), {});
   for (const std::size_t drawing : order)
     map.tiles.push_back(quantised(drawings[drawing].image.image, map.depth));
   set.maps.push_back(std::move(map));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/bake/material_files.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/tileset/tile_set.h"
 
@@ -29,12 +30,12 @@ struct HandDrawnTile {
 /// sentence once with the file it is true of first. Drawings of other roles stay as they are.
 std::vector<std::string> complete_drawings(std::vector<HandDrawnTile>& drawings, Role role);
 
-/// The drawings as a tile set with one map, their guard measured. All must have one size, 4 to 4096 texels a
+/// The drawings as a tile set with one map, called and meaning what `map` says, whose file doesn't count; their guard
+/// measured. All must have one size, 4 to 4096 texels a
 /// side, and one number of channels, and there must be as many as colors; the depth and encoding are those of
 /// the first (Error, invalid_content). A complete set is brought into the usual order of its colors, so that
 /// hashes find its tiles; `tiles` otherwise keep their order. Whether borders agree is not looked at: see
 /// border_differences.
-TileSet drawn_set(std::span<const HandDrawnTile> drawings, const TileColors& tiles,
-                  const std::string& map_name, Role role);
+TileSet drawn_set(std::span<const HandDrawnTile> drawings, const TileColors& tiles, const MaterialFile& map);
 
 } // namespace tilepack

@@ -9,12 +9,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
 
 namespace tilepack {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 // A file and the reading of its name that is gone by.
@@ -233,7 +237,34 @@ void add_strangers(const Folder& folder, const Material& material, bool alone, F
   }
 }
 
+// What of the folder has no word of this material's name and is no map of another: samples of their own.
+void add_unlike(const Folder& folder, const Material& material, FoundMaterial& found) {
+  std::set<std::string> known;
+  for (const Candidate& c : material) known.insert(c.file);
+  for (const PassedOver& over : found.passed_over) known.insert(over.file);
+  for (const std::string& file : folder.files) {
+    const std::string stem = file.substr(0, file.rfind('.'));
+    const std::vector<std::string> words = material_words(stem);
+    if (known.count(file) == 0 && has_readable_ending(file) &&
+        !words_beyond(material.front().reading.key, stem) &&
+        std::none_of(words.begin(), words.end(), is_picture_of_it))
+      found.unlike.push_back(file);
+  }
+}
+
+std::string for_many_samples(const std::string& place) {
+  return fmt::format("for many samples, list them in a manifest of batch: \"samples\": \"{}{}*.png\"", place,
+                     place.ends_with('/') ? "" : "/");
+}
+
 } // namespace
+
+std::string note_on_unlike(const FoundMaterial& found, const std::string& folder) {
+  return fmt::format(
+      "{} is taken as the material '{}' ({} of its images); {} {} passed over, for {} of its maps: {}",
+      folder, found.name, found.files.size(), listed(found.unlike), found.unlike.size() == 1 ? "is" : "are",
+      found.unlike.size() == 1 ? "it is none" : "they are none", for_many_samples(folder));
+}
 
 FoundMaterial material_files(std::span<const std::string> file_names, const std::string& prefix,
                              const std::string& place) {
@@ -256,13 +287,21 @@ FoundMaterial material_files(std::span<const std::string> file_names, const std:
       seen += fmt::format(", of formats that are not read: export them as {}", readable_formats());
     fail(fmt::format(
         "holds no color map by its name; {}. A color map is called like rock_albedo.png ({} lists "
-        "all endings), or give the image itself as SAMPLE",
-        seen, field("list-maps")));
+        "all endings), or give the image itself as SAMPLE{}",
+        seen, field("list-maps"), folder.files.size() > 1 ? "; " + for_many_samples(place) : ""));
   }
   if (names.size() > 1)
-    fail(fmt::format("holds several materials: {}; add the name of one to the path", fmt::join(names, ", ")));
+    fail(fmt::format("holds several materials: {}; add the name of one to the path: {}",
+                     fmt::join(names, ", "), (fs::path(place) / names.front()).string()));
   FoundMaterial found = Choice(*chosen, place).found;
   add_strangers(folder, *chosen, prefix.empty(), found);
+  found.name = names.front();
+  if (!prefix.empty()) return found;
+  add_unlike(folder, *chosen, found);
+  if (found.files.size() == 1 && !found.unlike.empty())
+    fail(
+        fmt::format("holds images that are not maps of one material: {}, and {}; name the one to bake, or {}",
+                    found.files.front().file, listed(found.unlike), for_many_samples(place)));
   return found;
 }
 

@@ -32,6 +32,8 @@ struct PassedOver {
 struct FoundMaterial {
   std::vector<MaterialFile> files; ///< color first, then normal, roughness, height, the others by name
   std::vector<PassedOver> passed_over;
+  std::string name = {};                ///< of the material, as its files begin
+  std::vector<std::string> unlike = {}; ///< images of the folder that nothing says to be of this material
 };
 
 /// Recognises the maps of one material among the names of files in a folder, by the endings of map_kinds():
@@ -47,9 +49,14 @@ struct FoundMaterial {
 /// one resolution if it states one ("rock_2k").
 ///
 /// Throws Error (invalid_content): no color map (what was seen is named), two files for one map with nothing to
-/// choose by, or several materials (all are named). `folder` is how messages name the place.
+/// choose by, several materials (all are named), or a color map alone among images that are none of its maps, where
+/// nothing says that it is the one that is meant. `folder` is how messages name the place.
 FoundMaterial material_files(std::span<const std::string> file_names, const std::string& prefix,
                              const std::string& folder);
+
+/// A line for the user on what a folder was taken for, and that its other images are passed over: for a material with
+/// `unlike` images.
+std::string note_on_unlike(const FoundMaterial& found, const std::string& folder);
 
 /// The map that its ending says this file is; none if it has none, or one of a single letter.
 std::optional<MaterialFile> map_by_name(const std::string& file);

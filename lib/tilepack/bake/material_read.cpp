@@ -129,6 +129,19 @@ std::string note_on(const PassedOver& file) {
                                                       field("map", file.label + "=" + in_quotes(file.file))));
 }
 
+MaterialFile meant_map(const std::string& word, std::string_view field_to_blame) {
+  if (const auto kind = known_kind(word))
+    return {std::string(kind->kind->name), kind->kind->role, "", kind->kind->contents, kind->normal_y};
+  if (word == name_of(Role::data)) return {word, Role::data, ""};
+  std::vector<std::string> known{"data"};
+  for (const MapKind& k : map_kinds()) known.emplace_back(k.name);
+  const std::string nearest = nearest_name(word, known);
+  throw Error(ErrorKind::usage, field(field_to_blame),
+              fmt::format("'{}' is no role{} The roles are {} and data", word,
+                          nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest),
+                          listed_kinds()));
+}
+
 ReadOptions reading_of(Role role, const ReadOptions& options) {
   if (is_light(role)) return options;
   ReadOptions plain;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tilepack {
@@ -21,6 +22,10 @@ std::string note_on(const PassedOver& file);
 /// "ROLE=FILE" or "NAME:ROLE=FILE"; without NAME the map is called like its role. ROLE is "data", or the name or an
 /// ending of one of map_kinds(): "normal", "normal-dx", "orm". Throws Error (usage) for the field "map".
 MaterialFile parsed_map(const std::string& text);
+
+/// What a word for a role stands for, as in parsed_map(), called like it and without a file. Throws Error (usage)
+/// for `field_to_blame`.
+MaterialFile meant_map(const std::string& word, std::string_view field_to_blame);
 
 /// How a map of that role is read: light as `options` have it; of all others only the limit of texels counts, for
 /// their values are plain and mean what is stored.

@@ -23,6 +23,7 @@ struct BatchEntry {
   std::string name; ///< unique
   const BatchVerb* verb = nullptr;
   std::vector<std::string> sources; ///< the positionals of the verb, in order
+  bool is_transition = false;       ///< a bake whose sources are materials, which its tiles lead between
   std::vector<MaterialFile> maps;   ///< of a bake
   std::string preset;               ///< of a bake; empty: none
   std::vector<BatchOption> options; ///< those of "defaults" that the entry does not override, then its own

@@ -12,6 +12,8 @@ std::span<const BatchVerb> batch_verbs() {
       {"pack", BatchOutput::pack, {{"tiles", "", false, true}}, {"colors"}},
       {"render", BatchOutput::file, {pack}, {"mesh"}},
       {"compose", BatchOutput::file, {{"scene", "scenes"}}, {"mesh"}},
+      {"shader", BatchOutput::file, {pack}},
+      {"view", BatchOutput::file, {pack}},
       {"inspect", BatchOutput::printed, {pack}, {}, {"picture"}},
       {"validate", BatchOutput::printed, {pack}},
       {"compare", BatchOutput::printed, {{"a", "", true}, {"b", "", true}}},

@@ -1,5 +1,6 @@
 #include "tilepack/batch/entry_state.h"
 
+#include "tilepack/bake/material_read.h"
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/preset.h"
 #include "tilepack/bake/text_file.h"
@@ -61,11 +62,25 @@ void add_scene_files(std::vector<EntryInput>& inputs, const std::string& scene) 
   }
 }
 
+// "material sand color", by the names that the materials of a transition have in the pack.
+void add_materials(std::vector<EntryInput>& inputs, const BakeJob& job) {
+  const std::vector<std::string> names = material_names_of(job);
+  for (std::size_t m = 0; m < names.size(); ++m)
+    for (const MaterialFile& map : sample_files(job.transition[m]).files)
+      inputs.push_back({fmt::format("material {} {}", names[m], map.name), map.file});
+}
+
+std::string name_of_folder(const std::string& pack) {
+  return fs::absolute(pack_json_of(pack)).lexically_normal().parent_path().filename().string();
+}
+
 } // namespace
 
 std::vector<EntryInput> inputs_of(const Manifest& manifest, const BatchEntry& entry) {
   std::vector<EntryInput> inputs;
-  if (entry.verb->name == "bake") {
+  if (entry.is_transition) {
+    add_materials(inputs, bake_job_of(manifest, entry));
+  } else if (entry.verb->name == "bake") {
     const BakeJob job = bake_job_of(manifest, entry);
     for (const MaterialFile& map : maps_of(job))
       inputs.push_back({inputs.empty() ? "sample" : "map " + map.name, map.file});
@@ -93,9 +108,13 @@ std::vector<std::string> looked_at(const BatchEntry& entry, const std::vector<En
   std::vector<std::string> files;
   for (const EntryInput& input : inputs) files.push_back(input.file);
   if (is_preset_file(entry.preset)) files.push_back(entry.preset);
-  if (entry.verb->name == "bake" && (files.empty() || files.front() != entry.sources.front())) {
+  if (entry.verb->name != "bake") return files;
+  // A sample that is no file by itself stands for what its folder holds.
+  for (const std::string& source : entry.sources) {
+    if (std::any_of(inputs.begin(), inputs.end(), [&](const EntryInput& in) { return in.file == source; }))
+      continue;
     std::error_code fault;
-    const fs::path sample = entry.sources.front();
+    const fs::path sample = source;
     files.push_back(fs::is_directory(sample, fault) ? sample.string()
                                                     : (sample.parent_path() / ".").string());
   }
@@ -116,6 +135,9 @@ std::string canonical_options_of(const Manifest& manifest, const BatchEntry& ent
       line += fmt::format("{}{}", line.empty() ? "" : ",", is_file ? "a file" : value);
     std::replace(line.begin(), line.end(), '\n', ' ');
   }
+  // Shaders and pages name the pack by its folder.
+  if (entry.verb->name == "shader" || entry.verb->name == "view")
+    lines["folder"] = name_of_folder(entry.sources.front());
   // What a picture is written as depends on its ending.
   if (entry.verb->output == BatchOutput::file) lines["ending"] = fs::path(entry.output).extension().string();
   std::string text;

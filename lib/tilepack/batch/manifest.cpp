@@ -158,6 +158,7 @@ private:
     BatchEntry entry;
     entry.verb = text.verb;
     entry.at = text.at;
+    entry.is_transition = text.is_transition;
     const std::string output = fill(text.output, text.at + ".output");
     entry.output = resolved(output);
     while (entry.output.size() > 1 && entry.output.ends_with('/')) entry.output.pop_back();
@@ -295,7 +296,10 @@ std::string place_in(const Manifest& manifest, std::string_view at) {
 BakeJob bake_job_of(const Manifest& manifest, const BatchEntry& entry) {
   BakeJob job;
   job.name = entry.name;
-  job.sample = entry.sources.front();
+  if (entry.is_transition)
+    job.transition = entry.sources;
+  else
+    job.sample = entry.sources.front();
   job.maps = entry.maps;
   job.preset = entry.preset;
   job.folder = entry.output;
@@ -322,17 +326,25 @@ BakeJob bake_job_of(const Manifest& manifest, const BatchEntry& entry) {
     } else if (option.name == "max-texels") {
       if (!parse_whole(value, 1, std::int64_t{1} << 40, job.max_texels))
         refuse(fmt::format("a whole number of 1 to {}", std::int64_t{1} << 40));
-    } else if (option.name == "require" || option.name == "apply-advice" || option.name == "transition") {
-      throw Error(ErrorKind::invalid_content, where,
-                  "is taken on the command line alone: no entry of a manifest has it");
+    } else if (option.name == "require") {
+      if (value != "good" && value != "fair") refuse("good or fair");
+      job.require = value;
+    } else if (option.name == "apply-advice") {
+      if (!option.is_flag) refuse("true or false");
+      job.apply_advice = value == "true";
     } else if (!is_bake_word(option.name)) {
-      known.insert(known.end(), {"encoding", "channels", "max-texels", "report", "jobs"});
+      known.insert(known.end(),
+                   {"encoding", "channels", "max-texels", "report", "jobs", "require", "apply-advice"});
       const std::string nearest = nearest_name(option.name, known);
       throw Error(ErrorKind::invalid_content, where,
                   nearest.empty() ? "is no option of bake"
                                   : fmt::format("is no option of bake; did you mean \"{}\"?", nearest));
     }
   }
+  if (job.apply_advice && entry.is_transition)
+    throw Error(ErrorKind::invalid_content, place_in(manifest, entry.at),
+                field("apply-advice") +
+                    " does not go with a transition; give what the verdict names by hand");
   return job;
 }
 

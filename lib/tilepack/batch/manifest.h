@@ -19,6 +19,7 @@ namespace tilepack {
 ///     "jobs": [
 ///       { "name": "gravel", "sample": "gravel.png", "maps": {"normal": "gravel_n.png"}, "output": "packs/gravel" },
 ///       { "samples": "textures/*.png", "options": {"seed": 7}, "output": "packs/{stem}" },
+///       { "transition": ["sand.png", "grass.png"], "output": "packs/shore" },
 ///       { "verb": "render", "packs": "packs/*", "output": "previews/{stem}.png" } ] }
 ///
 /// manifest.schema.json describes it field by field. "verb" is "bake" unless given; the preset and the options of

@@ -39,6 +39,7 @@ std::vector<BatchOption> options_in(const JsonCursor& options, const std::string
     // What an entry says in places of their own, and what would make no output.
     for (const auto& [word, instead] :
          {std::pair("output", "\"output\""), std::pair("preset", "\"preset\""), std::pair("map", "\"maps\""),
+          std::pair("transition", "\"transition\": [\"A\", \"B\"]"),
           std::pair("depfile", "the depfile of the batch"), std::pair("help", "no help"),
           std::pair("list-presets", "no list"), std::pair("list-rules", "no list")})
       if (name == word)
@@ -77,6 +78,23 @@ std::vector<std::string> texts_in(const JsonCursor& value) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < value.array(1, most_sources); ++i) texts.push_back(path_text(value.item(i)));
   return texts;
+}
+
+// The materials of a transition, which stand in place of a sample; false if the entry is none.
+bool read_materials(const JsonCursor& job, EntryText& entry) {
+  const auto materials = job.find("transition");
+  if (!materials) return false;
+  for (const char* const other : {"sample", "samples", "maps"})
+    if (job.find(other))
+      job.fail(
+          fmt::format("has both \"transition\" and \"{}\"; a transition is made from its materials alone, "
+                      "each an image or a folder of maps",
+                      other));
+  entry.is_transition = true;
+  constexpr std::size_t fewest = 2, most = 4;
+  for (std::size_t i = 0; i < materials->array(fewest, most); ++i)
+    entry.sources.push_back(path_text(materials->item(i)));
+  return true;
 }
 
 // One path for each source of the verb, or the pattern that stands for its first.
@@ -134,13 +152,13 @@ EntryText entry_text(const JsonCursor& job, const std::string& at, const EntryDe
   entry.verb = verb ? &verb_in(*verb) : batch_verb_called("bake");
   const bool is_bake = entry.verb->name == "bake";
   std::vector<std::string> known{"name", "verb", "output", "options"};
-  if (is_bake) known.insert(known.end(), {"maps", "preset"});
+  if (is_bake) known.insert(known.end(), {"transition", "maps", "preset"});
   for (const BatchSource& source : entry.verb->sources) {
     known.emplace_back(source.key);
     if (!source.pattern.empty()) known.emplace_back(source.pattern);
   }
   job.only(known);
-  read_sources(job, entry);
+  if (!is_bake || !read_materials(job, entry)) read_sources(job, entry);
   entry.output = path_text(job.member("output"));
   if (const auto name = job.find("name")) entry.name = name->text(longest_path);
   if (const auto options = defaults.options.find(std::string(entry.verb->name));

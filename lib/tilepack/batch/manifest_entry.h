@@ -17,6 +17,7 @@ struct EntryText {
   std::string name;
   std::string output;
   std::vector<std::string> sources; ///< empty if there is a pattern
+  bool is_transition = false;       ///< a bake whose sources are materials
   std::vector<std::string> pattern; ///< one or several; empty if there is none
   std::string pattern_at;
   bool is_pack_pattern = false;

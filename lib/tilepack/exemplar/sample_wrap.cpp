@@ -11,11 +11,16 @@ namespace {
 constexpr int smallest_side = 16;
 constexpr int inside_places = 256; // at which the step inside is measured, evenly spread
 
+constexpr int far_pairs = 256; // and the step between places that have nothing to do with each other
+
+// How far above the step inside the one across the border may lie.
 struct SquareLimit {
-  int side;     // texels
-  double share; // of the step inside
+  int side;      // of squares, texels
+  double share;  // of the way from the step inside to that between strangers
+  double excess; // of the step inside; whichever allows more
 };
-constexpr std::array limits_of_squares{SquareLimit{1, 1.18}, SquareLimit{2, 1.12}, SquareLimit{4, 1.45}};
+constexpr std::array limits_of_squares{SquareLimit{1, 0.2, 0.05}, SquareLimit{2, 0.45, 0.05},
+                                       SquareLimit{4, 0.65, 0.45}};
 
 constexpr double related = 0.9; // of the step between texels that have nothing to do with each other
 
@@ -31,24 +36,43 @@ struct Turned {
   }
 };
 
-// The mean of what squares of `side` texels on both sides of a place differ by, squared, in units that are the same
-// at all places: the second square begins at `place`, which may be 0.
-double step_at(const Turned& image, int place, int side) {
+// What the means of squares at two places differ by, over all squares across, in units that are the same at all
+// places. Where things that stand sharp against their ground meet a border, a few squares differ by much, and the
+// rest says whether the ground goes on: hence the second mean, in which large differences count for less.
+struct Step {
+  double squared = 0; // root of the mean square
+  double rooted = 0;  // mean of the roots
+
+  Step& operator+=(const Step& other) {
+    squared += other.squared;
+    rooted += other.rooted;
+    return *this;
+  }
+  Step operator/(double count) const { return {squared / count, rooted / count}; }
+};
+
+// Between the squares that begin at `one` and at `other`.
+Step step_between(const Turned& image, int one, int other, int side) {
   const int channels = image.image.channels - image.image.guides;
   std::int64_t sum = 0;
-  for (int j = 0; j + side <= image.across(); j += side)
+  double roots = 0;
+  int squares = 0;
+  for (int j = 0; j + side <= image.across(); j += side, ++squares) {
+    std::int64_t apart = 0;
     for (int c = 0; c < channels; ++c) {
       int difference = 0;
       for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
-          difference += image.texel(place + x, j + y)[c] -
-                        image.texel((place + image.length() - side + x) % image.length(), j + y)[c];
-      sum += static_cast<std::int64_t>(difference) * difference;
+          difference += image.texel(other + x, j + y)[c] - image.texel(one + x, j + y)[c];
+      apart += static_cast<std::int64_t>(difference) * difference;
     }
-  return std::sqrt(static_cast<double>(sum));
+    sum += apart;
+    roots += std::sqrt(std::sqrt(static_cast<double>(apart)));
+  }
+  return {std::sqrt(static_cast<double>(sum) / squares), roots / squares};
 }
 
-// What step_at(image, place, 1) would be on average if no texel had anything to do with its neighbour.
+// What step_between() of texels would be on average if no texel had anything to do with its neighbour.
 double unrelated_step(const Turned& image) {
   const int channels = image.image.channels - image.image.guides;
   double variance = 0;
@@ -64,36 +88,61 @@ double unrelated_step(const Turned& image) {
     const double mean = static_cast<double>(sum) / texels;
     variance += static_cast<double>(squares) / texels - mean * mean;
   }
-  return std::sqrt(2 * variance * image.across());
+  return std::sqrt(2 * variance);
 }
 
 // The mean step at the places that lie whole periods from the border; 0 where the image holds no whole number of them.
-double step_at_periods(const Turned& image, const Period& period, int side) {
+Step step_at_periods(const Turned& image, const Period& period, int side) {
   const int count = whole_periods(period, image.length());
-  if (count < 2) return 0;
-  double sum = 0;
+  if (count < 2) return {};
+  Step sum;
   int places = 0;
   for (int k = 1; k < count; ++k) {
     const auto place = static_cast<int>(std::lround(static_cast<double>(k) * image.length() / count));
     if (place < side || place > image.length() - side) continue;
-    sum += step_at(image, place, side);
+    sum += step_between(image, place - side, place, side);
     ++places;
   }
-  return places > 0 ? sum / places : 0;
+  return places > 0 ? sum / places : sum;
+}
+
+// The mean step at places inside.
+Step step_inside(const Turned& image, int side) {
+  const int last = image.length() - side;
+  const int stride = std::max(1, (last - side) / inside_places);
+  Step sum;
+  int places = 0;
+  for (int place = side; place <= last; place += stride, ++places)
+    sum += step_between(image, place - side, place, side);
+  return sum / places;
+}
+
+// The mean step between places a quarter to three quarters of the image apart.
+Step step_of_strangers(const Turned& image, int side) {
+  constexpr int distances = 8, turn = 3; // a turn, so that each distance is taken all over the image
+  Step sum;
+  for (int i = 0; i < far_pairs; ++i) {
+    const int apart = image.length() / 4 + i * turn % distances * (image.length() / (2 * distances));
+    const int place = (image.length() - side - apart) * i / (far_pairs - 1);
+    sum += step_between(image, place, place + apart, side);
+  }
+  return sum / far_pairs;
 }
 
 bool wraps(const Turned& image, const Period& period) {
   return std::all_of(limits_of_squares.begin(), limits_of_squares.end(), [&](const SquareLimit& limit) {
-    const int first = limit.side;
-    const int last = image.length() - limit.side;
-    const int stride = std::max(1, (last - first) / inside_places);
-    double inside = 0;
-    int places = 0;
-    for (int place = first; place <= last; place += stride, ++places)
-      inside += step_at(image, place, limit.side);
-    if (limit.side == 1 && inside > related * places * unrelated_step(image)) return false;
-    const double usual = std::max(inside / places, step_at_periods(image, period, limit.side));
-    return step_at(image, 0, limit.side) <= limit.share * usual;
+    const Step inside = step_inside(image, limit.side);
+    if (limit.side == 1 && inside.squared > related * unrelated_step(image)) return false;
+    const Step at_periods = step_at_periods(image, period, limit.side);
+    const Step strangers = step_of_strangers(image, limit.side);
+    const Step border = step_between(image, image.length() - limit.side, 0, limit.side);
+    const auto is_usual = [&](double Step::*mean) {
+      const double usual = std::max(inside.*mean, at_periods.*mean);
+      return border.*mean <=
+             usual + std::max(limit.excess * usual, limit.share * (strangers.*mean - inside.*mean));
+    };
+    // Of large squares there are too few for the second mean to say much.
+    return is_usual(&Step::squared) && (limit.side > 2 || is_usual(&Step::rooted));
   });
 }
 

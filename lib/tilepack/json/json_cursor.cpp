@@ -49,6 +49,13 @@ private:
   std::vector<std::set<std::string>> open_objects;
 };
 
+// Stands in a place as it is.
+bool is_plain(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
 } // namespace
 
 struct JsonCursor::Document {
@@ -113,7 +120,10 @@ void JsonCursor::only(std::span<const std::string> known) const {
     const std::string nearest = nearest_name(name, known);
     const std::string hint = nearest.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                                              : fmt::format("did you mean \"{}\"?", nearest);
-    fail(fmt::format("unknown field {}; {}", json(name).dump(-1, ' ', true).substr(0, longest_shown), hint));
+    const std::string what =
+        fmt::format("unknown field {}; {}", json(name).dump(-1, ' ', true).substr(0, longest_shown), hint);
+    if (path.empty() && is_plain(name)) member(name).fail(what); // whose line can be told
+    fail(what);
   }
 }
 

@@ -244,7 +244,12 @@ private:
   }
 
   void note_unused(const std::vector<std::vector<int>>& uses) {
-    if (scene.output < 0) return;
+    // What a name that leads nowhere was to show can't be told.
+    const auto cuts = [](const SceneProblem& problem) {
+      return problem.fault == SceneFault::unknown_node || problem.fault == SceneFault::unknown_block ||
+             problem.fault == SceneFault::field;
+    };
+    if (scene.output < 0 || std::any_of(problems.begin(), problems.end(), cuts)) return;
     std::vector<char> is_used(uses.size(), 0);
     std::vector<int> open{scene.output};
     while (!open.empty()) {
