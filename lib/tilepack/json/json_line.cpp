@@ -174,8 +174,10 @@ void JsonLines::note_members() const {
     return last;
   };
   walk.each_member([&](std::string_view name) {
-    const auto [member, is_new] = members.try_emplace(std::string(name), Member{here(), {}});
-    if (is_new) walk.each_item([&] { member->second.items.push_back(here()); });
+    if (members.contains(name)) return; // of one that stands twice, the first
+    Member& member = members[std::string(name)];
+    member.value = here();
+    walk.each_item([&] { member.items.push_back(here()); });
   });
 }
 
