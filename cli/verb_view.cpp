@@ -27,6 +27,12 @@ struct ViewArguments {
   std::optional<double> time;
 };
 
+void say_made(const ViewArguments& a, const std::string& page, Console& console) {
+  console.made(fmt::format("{}: a page of {}, {:.1f} MB, to be opened in a browser", a.output, a.pack,
+                           static_cast<double>(page.size()) / 1e6),
+               a.output);
+}
+
 // The page of a scene; what it leaves out of the picture is said.
 int view_scene(const ViewArguments& a, Console& console) {
   const SceneFile scene = read_scene(a.pack);
@@ -40,15 +46,13 @@ int view_scene(const ViewArguments& a, Console& console) {
   const SceneViewPage page = scene_view_page(scene, files, settings, a.time.value_or(0));
   check_outputs(std::vector<OutputFile>{{"--output", a.output}}, files.inputs());
   write_text_file(a.output, page.text);
+  say_made(a, page.text, console);
   constexpr double sharp = 4; // cells a texel: up to there the overview takes over without a blur
   if (page.cells_a_texel > sharp)
     console.note(fmt::format(
         "from afar the page shows an overview with a texel every {:.0f} cells; pixels of 4 to {:.0f} "
         "cells are blurred, which `compose` draws sharp",
         page.cells_a_texel, page.cells_a_texel));
-  console.made(fmt::format("{}: a page of {}, {:.1f} MB, to be opened in a browser", a.output, a.pack,
-                           static_cast<double>(page.text.size()) / 1e6),
-               a.output);
   return 0;
 }
 
@@ -71,9 +75,7 @@ int run_view(const ViewArguments& a, Console& console) {
   settings.metres = a.metres;
   const std::string page = view_page(pack, settings);
   write_text_file(a.output, page);
-  console.made(fmt::format("{}: a page of {}, {:.1f} MB, to be opened in a browser", a.output, a.pack,
-                           static_cast<double>(page.size()) / 1e6),
-               a.output);
+  say_made(a, page, console);
   return 0;
 }
 

@@ -31,6 +31,8 @@ TEST_CASE("the estimate of memory meets what bakes took") {
       {rgb(512), {{"colors", "4", ""}, {"tile-size", "64", ""}}, 2, 81},
       {rgb(1024), {}, 2, 62}, // drawn stones: bench_large_sample
       {rgb(4096), {}, 2, 478},
+      {rgb(4096), {{"tile-size", "auto", ""}, {"effort", "5", ""}}, 2, 1398},
+      {rgb(8192), {{"tile-size", "auto", ""}, {"effort", "5", ""}}, 2, 5349},
       {rock, {{"colors", "3", ""}}, 2, 152},
       {rgb(512), {{"colors", "3", ""}, {"layout", "rotated", ""}}, 2, 124},
       {rgb(512), {{"colors", "3", ""}, {"layout", "array", ""}, {"border", "16", ""}}, 2, 117},

@@ -124,6 +124,20 @@ class WhatIsMade(Batch):
             self.assertIn("shaders/a.glsl", rules)
             self.assertIn("pages/b.html", rules)
 
+    def test_a_page_of_a_scene_hangs_on_what_the_scene_names(self):
+        self.samples("a")
+        self.write_json("scene.json", {"format": "tilepack-scene", "version": 1, "size": [128, 128], "output": "look",
+                                       "nodes": {"look": {"block": "pack", "file": "packs/a"}}})
+        self.manifest({"sample": "in/a.png", "output": "packs/a"},
+                      {"verb": "view", "pack": "scene.json", "output": "pages/scene.html"})
+        plan = self.plan("m.json")
+        self.assertIn("packs/a is made again", plan["pages/scene.html"])
+        self.assertEqual(self.counts("m.json"), {"built": 2})
+        self.assertEqual(self.counts("m.json"), {"current": 2})
+        self.run_tilepack("bake", "in/a.png", "-o", "packs/a", "--tile-size", 16, "--effort", 0, "--virtual-size", 8, "--seed", 9)
+        self.manifest({"verb": "view", "pack": "scene.json", "output": "pages/scene.html"})
+        self.assertIn("changed", self.plan("m.json")["pages/scene.html"])
+
     def test_texts_that_name_their_pack_are_not_taken_from_another_of_the_same_content(self):
         self.samples("a")
         shutil.copy(self.path("in/a.png"), self.path("in/b.png"))

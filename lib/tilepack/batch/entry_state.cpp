@@ -70,7 +70,10 @@ void add_materials(std::vector<EntryInput>& inputs, const BakeJob& job) {
       inputs.push_back({fmt::format("material {} {}", names[m], map.name), map.file});
 }
 
-std::string name_of_folder(const std::string& pack) {
+// What shaders and pages name what they show by.
+std::string name_of_shown(const BatchEntry& entry) {
+  const std::string& pack = entry.sources.front();
+  if (shows_scene(entry)) return fs::path(pack).filename().string();
   return fs::absolute(pack_json_of(pack)).lexically_normal().parent_path().filename().string();
 }
 
@@ -90,12 +93,12 @@ std::vector<EntryInput> inputs_of(const Manifest& manifest, const BatchEntry& en
   } else {
     for (std::size_t i = 0; i < entry.sources.size(); ++i) {
       const BatchSource& source = entry.verb->sources[i];
-      if (source.is_pack)
+      if (source.is_pack && !shows_scene(entry))
         add_pack(inputs, source.key, entry.sources[i]);
       else
         inputs.push_back({std::string(source.key), entry.sources[i]});
     }
-    if (entry.verb->name == "compose") add_scene_files(inputs, entry.sources.front());
+    if (shows_scene(entry)) add_scene_files(inputs, entry.sources.front());
   }
   for (const std::string_view option : entry.verb->files_read)
     for (const BatchOption& given : entry.options)
@@ -135,9 +138,7 @@ std::string canonical_options_of(const Manifest& manifest, const BatchEntry& ent
       line += fmt::format("{}{}", line.empty() ? "" : ",", is_file ? "a file" : value);
     std::replace(line.begin(), line.end(), '\n', ' ');
   }
-  // Shaders and pages name the pack by its folder.
-  if (entry.verb->name == "shader" || entry.verb->name == "view")
-    lines["folder"] = name_of_folder(entry.sources.front());
+  if (entry.verb->name == "shader" || entry.verb->name == "view") lines["shown"] = name_of_shown(entry);
   // What a picture is written as depends on its ending.
   if (entry.verb->output == BatchOutput::file) lines["ending"] = fs::path(entry.output).extension().string();
   std::string text;

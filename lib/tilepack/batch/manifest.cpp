@@ -235,7 +235,7 @@ private:
       };
       for (const std::string& source : entry.sources) reads(source);
       for (const MaterialFile& map : entry.maps) reads(map.file);
-      if (entry.verb->name == "compose")
+      if (shows_scene(entry))
         for (const SceneFileName& name : scene_file_names(entry.sources.front())) reads(name.path);
       for (const BatchOption& option : entry.options)
         if (is_read_option(*entry.verb, option.name))

@@ -1,6 +1,7 @@
 #include "tilepack/seam/window_lookup.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tilepack {
 
@@ -63,9 +64,11 @@ bool take_best(PositionMap& map, int apart, SourceTexel& place) {
   std::int64_t best = ruled_out;
   for (const PositionMap::Part& part : map.parts) {
     const auto least = std::min_element(part.values.begin(), part.values.end());
-    if (least == part.values.end() || *least >= best) continue;
+    if (least == part.values.end() || *least == ruled_out) continue;
+    const SourceTexel at = part.place(static_cast<std::size_t>(least - part.values.begin()));
+    if (*least > best || (*least == best && std::tie(place.y, place.x) < std::tie(at.y, at.x))) continue;
     best = *least;
-    place = part.place(static_cast<std::size_t>(least - part.values.begin()));
+    place = at;
   }
   if (best == ruled_out) return false;
   rule_out(map, place, 1, apart);

@@ -187,8 +187,8 @@ struct TextureText {
     return index + head() + in_cell(b.grid) +
            GraphWriter::filled(R"(  vec2 texels = $TEXELS;
   float level = clamp(level_of(dc, texels), 0.0, $LAST), fine = floor(level), share = level - fine;
-  vec2 rim = 0.5 / max(floor(texels * exp2(-fine - (share > 0.0 ? 1.0 : 0.0))), 1.0), f = at.part;
-  bool inner = f.x >= rim.x && f.y >= rim.y && f.x <= 1.0 - rim.x && f.y <= 1.0 - rim.y;
+  vec2 outer = 0.5 / max(floor(texels * exp2(-fine - (share > 0.0 ? 1.0 : 0.0))), 1.0), f = at.part;
+  bool inner = f.x >= outer.x && f.y >= outer.y && f.x <= 1.0 - outer.x && f.y <= 1.0 - outer.y;
   if (filter_mode == 2) inner = true;
   vec4 sum = vec4(0.0);
   for (int n = 0; n < (inner ? 1 : 8); ++n) {

@@ -37,11 +37,12 @@ std::vector<Choice> block_minima(PositionMap& map, std::size_t limit) {
   std::vector<Choice> choices;
   for (PositionMap::Part& part : map.parts) {
     const int right = part.area.x + part.area.width, bottom = part.area.y + part.area.height;
-    for (int y = part.area.y; y < bottom; y += block)
-      for (int x = part.area.x; x < right; x += block) {
-        Choice best{{x, y}, part.at(x, y)};
-        for (int j = y; j < std::min(bottom, y + block); ++j)
-          for (int i = x; i < std::min(right, x + block); ++i)
+    // Of one grid for all parts, which lie further apart than blocks are wide.
+    for (int y = part.area.y / block * block; y < bottom; y += block)
+      for (int x = part.area.x / block * block; x < right; x += block) {
+        Choice best{{x, y}, ruled_out};
+        for (int j = std::max(y, part.area.y); j < std::min(bottom, y + block); ++j)
+          for (int i = std::max(x, part.area.x); i < std::min(right, x + block); ++i)
             if (part.at(i, j) < best.mismatch) best = {{i, j}, part.at(i, j)};
         if (best.mismatch != ruled_out) choices.push_back(best);
       }

@@ -24,7 +24,7 @@ std::vector<double> channel_means(const FeatureImage& image, Rect area) {
 
 struct Found {
   std::int64_t mismatch;
-  std::uint32_t part, index; // in the map
+  SourceTexel place;
 };
 
 // The `count` least values, least first, of equal ones the first.
@@ -33,12 +33,13 @@ std::vector<Found> least_places(const PositionMap& map, std::size_t count) {
   for (std::uint32_t p = 0; p < map.parts.size(); ++p) {
     const std::vector<std::int64_t>& values = map.parts[p].values;
     for (std::uint32_t i = 0; i < values.size(); ++i)
-      if (values[i] != ruled_out) order.push_back({values[i], p, i});
+      if (values[i] != ruled_out) order.push_back({values[i], map.parts[p].place(i)});
   }
   count = std::min(order.size(), count);
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                     [&](const Found& a, const Found& b) {
-                      return std::tie(a.mismatch, a.part, a.index) < std::tie(b.mismatch, b.part, b.index);
+                      return std::tie(a.mismatch, a.place.y, a.place.x) <
+                             std::tie(b.mismatch, b.place.y, b.place.x);
                     });
   order.resize(count);
   return order;
@@ -66,7 +67,7 @@ std::vector<StripCandidate> StripRanking::best(const PositionMap& map, const Str
   for (const Found& found :
        least_places(map, static_cast<std::size_t>(options.places_per_candidate) * wanted)) {
     if (apart.size() >= spares) break;
-    const SourceTexel at = map.parts[found.part].place(found.index);
+    const SourceTexel at = found.place;
     if (std::any_of(apart.begin(), apart.end(), [&](const StripCandidate& c) {
           return std::abs(c.place.x - at.x) < options.apart && std::abs(c.place.y - at.y) < options.apart;
         }))

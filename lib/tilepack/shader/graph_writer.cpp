@@ -1,7 +1,6 @@
-#include "tilepack/shader/graph_program.h"
+#include "tilepack/shader/graph_writer.h"
 
 #include "tilepack/error/error.h"
-#include "tilepack/shader/graph_writer.h"
 
 #include <fmt/format.h>
 

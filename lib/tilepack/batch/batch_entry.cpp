@@ -1,0 +1,12 @@
+#include "tilepack/batch/batch_entry.h"
+
+#include "tilepack/scene/scene_file.h"
+
+namespace tilepack {
+
+bool shows_scene(const BatchEntry& entry) {
+  if (entry.verb->name == "compose") return true;
+  return entry.verb->name == "view" && is_scene_file(entry.sources.front());
+}
+
+} // namespace tilepack
