@@ -203,7 +203,7 @@ class EdgeDistances {
 public:
   explicit EdgeDistances(const FeatureImage& image)
       : width(static_cast<std::size_t>(image.width)), height(static_cast<std::size_t>(image.height)),
-        pitch(width + 2 * rim), values(pitch * (height + 2 * rim), std::uint8_t{farthest}) {
+        pitch(width + 2 * margin), values(pitch * (height + 2 * margin), std::uint8_t{farthest}) {
     const std::vector<std::uint16_t> slope = slopes(image);
     const int strong = strong_slope(slope);
     for (std::size_t y = 0; y < height; ++y)
@@ -219,12 +219,13 @@ public:
     }
   }
 
-  const std::uint8_t* row(std::size_t y) const { return values.data() + (y + rim) * pitch + rim; }
+  const std::uint8_t* row(std::size_t y) const { return values.data() + (y + margin) * pitch + margin; }
 
 private:
-  static constexpr std::size_t rim = 2; // texels round the image, as far as a step goes: nothing is near them
+  static constexpr std::size_t margin =
+      2; // texels round the image, as far as a step goes: nothing is near them
 
-  std::uint8_t* row(std::size_t y) { return values.data() + (y + rim) * pitch + rim; }
+  std::uint8_t* row(std::size_t y) { return values.data() + (y + margin) * pitch + margin; }
 
   static std::uint8_t nearer(int a, int b) { return static_cast<std::uint8_t>(a < b ? a : b); }
 

@@ -62,10 +62,10 @@ private:
 };
 
 // What lies near the four borders of a tile, for its neighbours to see.
-class TileRim {
+class TileBorder {
 public:
-  TileRim(const SourceCanvas& tile, int rim_depth)
-      : depth(rim_depth), width(tile.width), height(tile.height), north(width, depth), south(width, depth),
+  TileBorder(const SourceCanvas& tile, int border_depth)
+      : depth(border_depth), width(tile.width), height(tile.height), north(width, depth), south(width, depth),
         west(depth, height), east(depth, height) {
     for (int y = 0; y < depth; ++y)
       for (int x = 0; x < width; ++x) {
@@ -92,7 +92,7 @@ private:
 // A tile in the midst of `margin` texels beyond its borders: what neighbours show there. Without them a seam would drift to the border, where nothing
 // would tell how it looks from the other side.
 SourceCanvas with_margin(const Neighbours& neighbours, int margin, std::size_t id, const SourceCanvas& tile,
-                         const std::vector<TileRim>& rims) {
+                         const std::vector<TileBorder>& borders) {
   const int w = tile.width;
   const int h = tile.height;
   SourceCanvas canvas(w + 2 * margin, h + 2 * margin);
@@ -105,7 +105,7 @@ SourceCanvas with_margin(const Neighbours& neighbours, int margin, std::size_t i
       canvas.at(i, j) =
           column == 1 && row == 1
               ? tile.at(x, y)
-              : rims[neighbours.of(id, column, row)].at(x - (column - 1) * w, y - (row - 1) * h);
+              : borders[neighbours.of(id, column, row)].at(x - (column - 1) * w, y - (row - 1) * h);
     }
   }
   return canvas;
@@ -202,11 +202,11 @@ void repair_tiles(const SearchSpace& space, const MatchLevels& levels, const Fra
   const PeriodAlignment alignment = sources.alignment.seen_from({-margin, -margin});
   const auto fixed = fixed_texels(shape, margin);
   const Neighbours neighbours(shape);
-  std::vector<TileRim> rims;
-  for (const SourceCanvas& tile : tiles) rims.emplace_back(tile, margin);
+  std::vector<TileBorder> borders;
+  for (const SourceCanvas& tile : tiles) borders.emplace_back(tile, margin);
   std::vector<SourceCanvas> wide(tiles.size());
   each_side_by_side(tiles.size(), [&](std::size_t id) {
-    wide[id] = with_margin(neighbours, margin, id, tiles[id], rims);
+    wide[id] = with_margin(neighbours, margin, id, tiles[id], borders);
     tiles[id] = {}; // sets of large tiles are large
     replace_worst_patches({space.pyramid, space.search, uses, alignment, fixed}, settings.repair, wide[id]);
   });

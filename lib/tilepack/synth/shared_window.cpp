@@ -140,11 +140,12 @@ private:
     for (std::size_t n = 0; n < window.parts.size(); ++n) {
       const Rect& a = window.parts[n].area;
       const std::size_t all = index(a.width) * index(a.height);
-      const std::size_t rim =
+      const std::size_t shared =
           index(shape.guard) * (index(a.width) + index(a.height)); // what is shared is always open
-      sum += decided.empty()
-                 ? all
-                 : std::min(all, 2 * rim + static_cast<std::size_t>(std::count(
+      sum +=
+          decided.empty()
+              ? all
+              : std::min(all, 2 * shared + static_cast<std::size_t>(std::count(
                                                decided[n].begin(), decided[n].end(), CutConstraint::free)));
     }
     return sum;
