@@ -193,7 +193,7 @@ TEST_CASE("mips that promise nothing about borders are not held to it") {
 TEST_CASE("border texels of fitted levels are fitted again") {
   for (const Depth depth : {Depth::u8, Depth::u16, Depth::f32})
     for (const int guard : {1, 2}) {
-      Pack pack = good_pack({.guard = guard, .mips = MipMode::least_squares, .depth = depth});
+      Pack pack = good_pack({.guard = guard, .depth = depth, .mips = MipMode::least_squares});
       CHECK(listing(check_structure(pack)) == "");
       float& value = texel(pack, 3, 9, 1, 0)[2];
       const float was = value;

@@ -90,7 +90,7 @@ class Validate(CommandCase):
             "file named twice": ("TP207", field(["maps", 0, "levels", 1, "file"], "color_0.png")),
             "tiles swapped": ("TP308", lambda: self.edit(swap_cells)),
             "border texel": ("TP403", lambda: self.invert_texel("color_0.png", 8, 0)),
-            "border texel of a coarser level": ("TP405", lambda: self.invert_texel("color_1.png", 8, 3)),
+            "border texel of a coarser level": ("TP409", lambda: self.invert_texel("color_1.png", 8, 3)),
             "no permutation": ("TP501", lambda: self.edit(double_entry)),
         }
         for name, (rule, spoil) in corruptions.items():

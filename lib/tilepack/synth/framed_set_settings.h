@@ -133,7 +133,7 @@ struct FramedSetSettings {
   /// Where they do along both, so many times half the longer period, and at least as much as that: a cut that goes
   /// round bricks, which are laid by half, goes along a joint for half a brick from each course to the next, and wants
   /// some room to choose. By eye, at bricks of different tones, which shorter strips cut in two.
-  double reach_of_half_period = 1.4;
+  double reach_of_half_period = 1.1;
   double longest_reach_of_lattice = 0.45; ///< and at most: what is left to insides alone is never nothing
   /// Between the two the reach is so many times object_scale(): what is seen as one object is about 4 scales
   /// wide, and a cut has to find a way round it; a fourth more is room to choose. Scales are 3.6 (cracked
