@@ -118,3 +118,23 @@ TEST_CASE("at full size corner patches are exactly in step, and strips within a 
       CHECK(own.allows(place, 1));
   }
 }
+
+TEST_CASE("strips at the border of a sample stay in step, though the nearest place in step lies beyond it") {
+  const FeatureImage image = testing::features(testing::blobs(128, 128));
+  Periodicity periods;
+  periods.x.length = periods.y.length = 16;
+  const FrameShape shape = shape_of(periods);
+  for (const SourceTexel through : {SourceTexel{20, 22}, {27, 17}, {31, 28}}) {
+    FrameSources sources = some_sources(shape);
+    sources.alignment = shape.alignment.through(through);
+    sources.horizontal = {{0, 0}, {48, 0}, {0, 60}, {48, 60}};
+    sources.vertical = {{0, 0}, {60, 0}, {0, 48}, {60, 48}};
+    refine_frame(image, shape, 1, {}, sources);
+    for (const Direction direction : {Direction::horizontal, Direction::vertical})
+      for (const SourceTexel place :
+           direction == Direction::horizontal ? sources.horizontal : sources.vertical) {
+        CAPTURE(through.x, through.y, place.x, place.y);
+        CHECK(sources.alignment.seen_from(strip_place(axes_of(shape, direction), 1)).allows(place, 1));
+      }
+  }
+}

@@ -23,7 +23,7 @@ bool fits_better(const Place& a, const Place& b) {
   return a.mismatch < b.mismatch;
 }
 
-// All places in step within `distance` texels of `start`, or that one.
+// All places in step within `distance` texels of `start`, or the nearest one.
 std::vector<Place> places_near(const FeatureImage& image, const Overlap& overlap,
                                const PeriodAlignment& alignment, int scale, SourceTexel start, int distance) {
   std::vector<Place> places;
@@ -35,9 +35,13 @@ std::vector<Place> places_near(const FeatureImage& image, const Overlap& overlap
       if (x < 0 || y < 0 || x + overlap.width > image.width || y + overlap.height > image.height) continue;
       if (alignment.allows({x * scale, y * scale}, scale)) add({x, y});
     }
-  if (places.empty())
-    add({std::clamp(start.x, 0, image.width - overlap.width),
-         std::clamp(start.y, 0, image.height - overlap.height)});
+  if (places.empty()) { // those near by lie beyond the sample: the next within it
+    const SourceTexel most{image.width - overlap.width, image.height - overlap.height};
+    const SourceTexel near =
+        alignment.nearest({start.x * scale, start.y * scale}, {0, 0}, {most.x * scale, most.y * scale});
+    add({std::clamp((near.x + scale / 2) / scale, 0, most.x),
+         std::clamp((near.y + scale / 2) / scale, 0, most.y)});
+  }
   return places;
 }
 
