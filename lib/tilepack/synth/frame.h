@@ -36,7 +36,8 @@ struct FrameShape {
   int reach = 2;        ///< guard < reach <= half the tile
   int corner_reach = 2; ///< reach <= corner_reach <= half the tile
   int corners = 1;
-  PeriodAlignment alignment; ///< of the whole periods that a tile holds, and of the lines that borders lie on
+  PeriodAlignment
+      alignment; ///< of the whole periods that a tile holds, and of lattices of the lines that borders lie on
   std::vector<Strip> horizontal;
   std::vector<Strip> vertical;
   std::vector<Tile> tiles; ///< by tile id

@@ -126,6 +126,7 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
                           most_trials = 16; // numbers of random choices are packed by these
   const FrameShape& shape = space.small_shape;
   const FeatureImage& image = space.small_image();
+  const int scale = space.scale();
   const int margin = std::max(shape.reach, shape.corner_reach);
   const auto range_x = static_cast<std::uint32_t>(std::max(1, image.width - 2 * margin + 1));
   const auto range_y = static_cast<std::uint32_t>(std::max(1, image.height - 2 * margin + 1));
@@ -139,7 +140,8 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
                                   static_cast<std::uint64_t>(trial);
       SourceTexel at{margin + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
                      margin + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
-      if (!shape.alignment.free()) at = in_step(space, shape.alignment, at, margin);
+      if (corner > 0 || shape.alignment.holds_first_part())
+        at = in_step(space, corners.alignment, at, margin);
       int distance = std::numeric_limits<int>::max();
       for (const SourceTexel& other : corners.places)
         distance = std::min(distance, std::abs(at.x - other.x) + std::abs(at.y - other.y));
@@ -151,6 +153,8 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
       }
     }
     corners.places.push_back(best);
+    if (corner == 0 && !shape.alignment.holds_first_part())
+      corners.alignment = shape.alignment.through({best.x * scale, best.y * scale});
   }
   return corners;
 }

@@ -235,7 +235,7 @@ SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
              PeriodAlignment(sample.periods, options.tile_size));
   const FeatureImage image = with_structure(sample.features, settings.structure);
   FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
-  if (!shape.alignment.free())
+  if (shape.alignment.lattice_period() > 0)
     shape.alignment = shape.alignment.through(cheapest_lines(image, sample.periods));
   const SearchSpace space(sample, shape, searched_pyramid(image, shape.tile, settings),
                           settings.most_searched_texels);
