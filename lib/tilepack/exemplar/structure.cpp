@@ -195,15 +195,15 @@ std::vector<std::uint8_t> sensitivities(const FeatureImage& image, double floor_
   return result;
 }
 
-constexpr int farthest = structure_range * chamfer_unit;
+constexpr int farthest_step = structure_range * chamfer_unit;
 
-// The distance of each texel from the nearest strong edge, in 1 / chamfer_unit, at most `farthest`: two sweeps over
+// The distance of each texel from the nearest strong edge, in 1 / chamfer_unit, at most `farthest_step`: two sweeps over
 // rows, each from the two rows before it and then along itself [Borgefors86].
 class EdgeDistances {
 public:
   explicit EdgeDistances(const FeatureImage& image)
       : width(static_cast<std::size_t>(image.width)), height(static_cast<std::size_t>(image.height)),
-        pitch(width + 2 * margin), values(pitch * (height + 2 * margin), std::uint8_t{farthest}) {
+        pitch(width + 2 * margin), values(pitch * (height + 2 * margin), std::uint8_t{farthest_step}) {
     const std::vector<std::uint16_t> slope = slopes(image);
     const int strong = strong_slope(slope);
     for (std::size_t y = 0; y < height; ++y)
@@ -285,7 +285,7 @@ FeatureImage with_structure(const FeatureImage& image, const StructureOptions& o
     const std::uint8_t* d = distance.row(y);
     for (std::size_t x = 0; x < wide; ++x, own += image.channels) {
       value = std::copy_n(own, image.channels, value);
-      *value++ = static_cast<std::uint8_t>(d[x] * full / farthest);
+      *value++ = static_cast<std::uint8_t>(d[x] * full / farthest_step);
     }
   });
   return result;

@@ -269,11 +269,6 @@ std::vector<CutConstraint> settled_by(const std::vector<std::uint8_t>& taken, Si
   return settled;
 }
 
-// The scale from which a line is brought to full size at once: round it a band of three of its texels is free, which is
-// room enough. From coarser ones bands would be so wide that cuts take longer than all else, and lines come down
-// scale by scale.
-constexpr int widest_step = 8;
-
 // What a cut at the scale of the search settles for the cut at full size.
 std::vector<CutConstraint> settled_by_search(const SearchSpace& space, const SourceCanvas& framed,
                                              SourceTexel place, std::int64_t bias) {

@@ -14,9 +14,6 @@ namespace {
 constexpr std::size_t most_guises = 4; // of a window, that are looked up together: more are much the same (w)
 constexpr std::size_t measured_guises = 16;
 constexpr int least_cells = 3; // of the search, along a window's side
-// From coarser scales cuts and places come down scale by scale: as in join_interiors(), bands round cuts would be too wide,
-// and too many places would have to be compared at full size.
-constexpr int widest_step = 8;
 
 // A window and where it lies.
 struct Site {
