@@ -54,14 +54,20 @@ TEST_CASE("lines are found for axes with a period alone") {
 }
 
 TEST_CASE("all joints of a wall are outlines, though some bricks stand out from them more") {
-  const FeatureImage image = with_structure(wall(64, 0, 240)); // bricks from 60 to 179
+  const FeatureImage plain = wall(64, 0, 240); // bricks from 60 to 179
+  StructureOptions options;
+  options.most_strong_share = 0.35;
+  const FeatureImage image = with_structure(plain, options), steepest = with_structure(plain);
+  int on_steepest = 0;
   int beside_joints = 0, on_outline = 0;
   for (int y = 40; y < 150; ++y)
     for (int x = 40; x < 150; ++x) {
       const bool at_joint = image.texel(x, y)[0] == 240 && image.texel(x + 1, y)[0] != 240;
       beside_joints += at_joint;
       on_outline += at_joint && image.texel(x, y)[1] < 40;
+      on_steepest += at_joint && steepest.texel(x, y)[1] < 40;
     }
   CHECK(beside_joints > 100);
   CHECK(on_outline == beside_joints);
+  CHECK(on_steepest < beside_joints); // what there is to mend
 }

@@ -24,21 +24,6 @@ constexpr double largest_rms = 1.5 / 255;
 // Sides of turned tiles whose few texels still tell a blur from an edit.
 constexpr int smallest_turned = 8;
 
-// Levels whose texels are plain boxes of the finer level's. Normals are renormalised, roughness takes up what
-// they lose, and alpha may be scaled to keep its coverage: those are the mip stage's own affair.
-bool plain_boxes(const PackedMap& map) {
-  return map.role != Role::normal && roughness_channels(map, map.channels).empty() &&
-         color_channels(map.channels) == map.channels;
-}
-
-double full_range(const PackedMap& map) {
-  if (map.depth == Depth::u8 || map.depth == Depth::u16) return 1;
-  double largest = 0;
-  for (const float v : map.levels.front().data())
-    if (std::isfinite(v)) largest = std::max(largest, std::abs(static_cast<double>(v)));
-  return largest > 0 ? largest : 1;
-}
-
 // to_linear() with the 256 codes of 8-bit maps looked up: it is most of the work otherwise.
 Image decoded(Image tile, Encoding encoding, Depth depth) {
   if (encoding == Encoding::linear) return tile;

@@ -3,7 +3,6 @@
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/mip/level_size.h"
 #include "tilepack/mip/mip_chain.h"
-#include "tilepack/mip/normal_variance.h"
 
 #include <fmt/format.h>
 
@@ -15,23 +14,11 @@ namespace tilepack {
 namespace {
 
 // Of the range. The level is rounded, and level 0 was, so twice half a code at the least; where it was measured (eleven
-// photos and maps of 8 and 16 bits and of floats, weights from 0 to 1000) the most was half a code.
+// packs of photos and elevations of 8 and 16 bits and of half floats, weights from 0 to 1000, effort 0) the most was half a code.
 constexpr double largest_difference = 2.0 / 255;
-
-bool made_from_itself(const PackedMap& map) {
-  return map.role != Role::normal && roughness_channels(map, map.channels).empty() &&
-         color_channels(map.channels) == map.channels;
-}
 
 bool finite(const Image& image) {
   return std::all_of(image.data().begin(), image.data().end(), [](float v) { return std::isfinite(v); });
-}
-
-double range_of(const PackedMap& map) {
-  if (map.depth == Depth::u8 || map.depth == Depth::u16) return 1;
-  double largest = 0;
-  for (const float v : map.levels.front().data()) largest = std::max(largest, std::abs(double{v}));
-  return largest > 0 ? largest : 1;
 }
 
 struct Difference {
@@ -66,7 +53,7 @@ void check_fitted_map(const Pack& pack, const PackedMap& map, std::vector<Issue>
   set.maps.push_back({map, tiles_at_level(map.levels.front(), pack.layout, pack.tile_size, 0)});
   const std::vector<TileMap> fitted = coarser_levels(
       set, 0, {.mode = MipMode::least_squares, .jump_weight = *pack.jump_weight}, &pack.layout);
-  const double range = range_of(map);
+  const double range = full_range(map);
   for (int level = 1; level < levels; ++level) {
     if (exact_through_guard(pack.guard, level)) continue; // check_texels and check_chain hold those
     const std::vector<Image> stored =
@@ -92,7 +79,7 @@ std::vector<Issue> check_fitted_borders(const Pack& pack) {
       !check_tiles(pack).empty() || !check_layout(pack).empty())
     return issues;
   for (const PackedMap& map : pack.maps)
-    if (made_from_itself(map) && !map.levels.empty()) check_fitted_map(pack, map, issues);
+    if (plain_boxes(map) && !map.levels.empty()) check_fitted_map(pack, map, issues);
   return issues;
 }
 

@@ -2,6 +2,7 @@
 
 #include "tilepack/layout/rotated_lattice.h"
 #include "tilepack/mip/level_size.h"
+#include "tilepack/mip/normal_variance.h"
 
 #include <fmt/format.h>
 
@@ -52,6 +53,19 @@ bool places_are_sound(const Layout& layout, int tiles) {
     if (cell.tile != id || !inside || !taken.emplace(cell.column, cell.row).second) return false;
   }
   return true;
+}
+
+bool plain_boxes(const PackedMap& map) {
+  return map.role != Role::normal && roughness_channels(map, map.channels).empty() &&
+         color_channels(map.channels) == map.channels;
+}
+
+double full_range(const PackedMap& map) {
+  if (map.depth == Depth::u8 || map.depth == Depth::u16) return 1;
+  double largest = 0;
+  for (const float v : map.levels.front().data())
+    if (std::isfinite(v)) largest = std::max(largest, std::abs(static_cast<double>(v)));
+  return largest > 0 ? largest : 1;
 }
 
 std::string place_name(const PackedMap& map, int level) {

@@ -28,6 +28,13 @@ bool has_right_size(const Pack& pack, const Image& image, int level);
 /// can be cut out of its textures.
 bool places_are_sound(const Layout& layout, int tiles);
 
+/// Whether a map's levels are boxes of the finer ones (past borders that are made to fit). Normals are renormalised,
+/// roughness takes up what they lose, and alpha may be scaled to keep its coverage: those are the mip stage's own affair.
+bool plain_boxes(const PackedMap& map);
+
+/// What texels are measured by: 1 where integers hold them, else the largest value of level 0, which must be there.
+double full_range(const PackedMap& map);
+
 /// "map color, level 2".
 std::string place_name(const PackedMap& map, int level);
 

@@ -43,8 +43,7 @@ std::vector<Issue> check_layer_borders(const Pack& pack);
 std::vector<Issue> check_chain(const Pack& pack);
 
 /// Mips fitted by least squares (mip/least_squares.h), which promise no equal texels: the outermost ring of each
-/// level against what the same fit of level 0 gives (TP409). Maps whose levels are made from level 0 alone:
-/// without alpha, normals or roughness. Layouts that turn no tile; packs that hold the weight of the fit and
+/// level against what the same fit of level 0 gives (TP409). Maps of plain boxes (check/level_view.h). Layouts that turn no tile; packs that hold the weight of the fit and
 /// have no fault of tiles or layout.
 std::vector<Issue> check_fitted_borders(const Pack& pack);
 

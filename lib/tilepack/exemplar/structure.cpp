@@ -13,13 +13,12 @@
 namespace tilepack {
 namespace {
 
-constexpr double strong_share = 0.1;       // of all texels lie on a strong edge
-constexpr double most_strong_share = 0.35; // and at most so many where what is not flat is steep
-// So many times the median slope stands out. The steepest tenth is 1.8 times it in grain of one size, and 2.2 (gravel) to
-// 3.6 (bathroom tiles) times in photos, which all keep their tenth; 20 and more times in drawn bricks.
-constexpr double out_of_flat = 5;
-constexpr double part_of_steepest =
-    0.3; // and so much of the slope of the steepest hundredth: less is a step within things
+// Where more than the steepest tenth may be strong: so many times the median slope stands out. The steepest tenth is 1.8
+// times it in grain of one size, 1.5 to 4.5 in 22 photos, 9 and 13 in two drawn walls. By eye: at 5, bathroom tiles and
+// drawn bricks keep their tenth, and more of them are cut in two.
+constexpr double out_of_flat = 2;
+// And so much of the slope of the steepest hundredth: less is a step within things.
+constexpr double part_of_steepest = 0.3;
 constexpr double steepest_share = 0.01;
 constexpr int chamfer_unit = 5; // 5, 7, 11: nearest to true distances of all small integers [Borgefors86]
 constexpr int chamfer_diagonal = 7;
@@ -82,10 +81,9 @@ int slope_of_share(const std::vector<std::size_t>& count, std::size_t texels, do
   return value;
 }
 
-// The slope above which an edge is strong. Where slopes go smoothly over from faint to steep, as those of grain do, it
-// is that of the steepest tenth. Where most of the sample is flat and the rest steep, as of bricks in mortar, the
-// steepest tenth would be the joints of some bricks and not of others; there it is what stands out from the flat.
-int strong_slope(const std::vector<std::uint16_t>& slope) {
+// The slope above which an edge is strong: that of the steepest tenth, or, where more may be, what stands out from the
+// flat.
+int strong_slope(const std::vector<std::uint16_t>& slope, double most_strong_share) {
   std::vector<std::size_t> count(65'536);
   for (const std::uint16_t s : slope) ++count[s];
   const auto of_share = [&](double share) { return slope_of_share(count, slope.size(), share); };
@@ -201,11 +199,11 @@ constexpr int farthest_step = structure_range * chamfer_unit;
 // rows, each from the two rows before it and then along itself [Borgefors86].
 class EdgeDistances {
 public:
-  explicit EdgeDistances(const FeatureImage& image)
+  EdgeDistances(const FeatureImage& image, double most_strong_share)
       : width(static_cast<std::size_t>(image.width)), height(static_cast<std::size_t>(image.height)),
         pitch(width + 2 * margin), values(pitch * (height + 2 * margin), std::uint8_t{farthest_step}) {
     const std::vector<std::uint16_t> slope = slopes(image);
-    const int strong = strong_slope(slope);
+    const int strong = strong_slope(slope, most_strong_share);
     for (std::size_t y = 0; y < height; ++y)
       for (std::size_t x = 0; x < width; ++x)
         if (slope[y * width + x] > strong) row(y)[x] = 0;
@@ -222,8 +220,8 @@ public:
   const std::uint8_t* row(std::size_t y) const { return values.data() + (y + margin) * pitch + margin; }
 
 private:
-  static constexpr std::size_t margin =
-      2; // texels round the image, as far as a step goes: nothing is near them
+  // Texels round the image, as far as a step goes: nothing is near them.
+  static constexpr std::size_t margin = 2;
 
   std::uint8_t* row(std::size_t y) { return values.data() + (y + margin) * pitch + margin; }
 
@@ -270,7 +268,7 @@ std::int64_t variance_of(const FeatureImage& image) {
 
 FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options) {
   if (image.channels >= max_feature_channels || options.weight <= 0.0) return image;
-  const EdgeDistances distance(image);
+  const EdgeDistances distance(image, options.most_strong_share);
   const int w = image.width;
   const int h = image.height;
   FeatureImage result{w, h, image.channels + 1, {}, image.guides + 1, 0, {}};

@@ -9,6 +9,9 @@ namespace tilepack {
 /// How far from an outline the channel of structure tells distances apart, texels.
 constexpr int structure_range = 12;
 
+/// Of all texels, the steepest, lie on a strong edge.
+constexpr double strong_share = 0.1;
+
 struct StructureOptions {
   double weight = 1.0; ///< 0..1, of the channel beside those of color; at 0 the image is returned as it is
   /// FeatureImage::flat_seam as a share of the variance of all channels together. With 0.4 cuts keep out of
@@ -18,6 +21,9 @@ struct StructureOptions {
   /// average (FeatureImage::sensitivity), before the mean is made 1. The less, the more cuts shun what is flat: at
   /// 0.3 hairlines come out in speckled mud, at 1 tan and grey stones grow together.
   double sensitivity_floor = 0.6;
+  /// So many texels, as a share of all, lie on a strong edge at most. More than strong_share only where they stand out
+  /// from what is flat, as joints of a wall do: its steepest tenth would be the joints of some bricks and not of others.
+  double most_strong_share = strong_share;
 };
 
 /// The image with one more channel, last: the distance of each texel to the nearest strong edge, 0 on it and
@@ -25,8 +31,7 @@ struct StructureOptions {
 /// middle of one stone does not pass for the edge of another, and a cut between two stones runs where both
 /// have their gaps [LH06].
 ///
-/// Strong are the edges of the tenth of all texels at which the smoothed color changes most, or of more where most
-/// texels are flat and the rest stand out from them, as joints in a drawn wall. Where that is a
+/// Strong are the edges of the tenth of all texels at which the smoothed color changes most (strong_share). Where that is a
 /// matter of grains, no texel is far from an edge, and the channel says next to nothing, as it should.
 ///
 /// An image with max_feature_channels channels is returned as it is.

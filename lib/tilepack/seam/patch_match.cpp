@@ -47,36 +47,11 @@ struct Matches {
   std::vector<std::size_t> first_of; // row of the canvas → the first in it or below; one more at the end
 };
 
-// Where seams cost more than the threshold, row by row: visit(row, a cost a texel).
-template <class Visit>
-void for_each_cost_row(const FeatureImage& image, const SourceCanvas& canvas, Visit&& visit) {
-  const auto w = static_cast<std::size_t>(canvas.width);
-  std::vector<std::int64_t> own(w), below(w);
-  for (int y = 0; y < canvas.height; ++y) {
-    const SourceTexel* row = canvas.texels.data() + canvas.index(0, y);
-    for (std::size_t x = 0; x < w; ++x) {
-      if (x + 1 < w) {
-        const std::int64_t cost = seam_cost(image, row[x], row[x + 1], 1, 0);
-        own[x] += cost;
-        own[x + 1] += cost;
-      }
-      if (y + 1 < canvas.height) {
-        const std::int64_t cost = seam_cost(image, row[x], row[x + w], 0, 1);
-        own[x] += cost;
-        below[x] += cost;
-      }
-    }
-    visit(y, own);
-    own.swap(below);
-    std::fill(below.begin(), below.end(), 0);
-  }
-}
-
 // Of each square near a seam the square it stems from.
 Matches first_matches(const FeatureImage& image, const PatchMatchOptions& options,
                       const SourceCanvas& canvas) {
   std::vector<std::uint8_t> near(canvas.texels.size());
-  for_each_cost_row(image, canvas, [&](int seam_y, const std::vector<std::int64_t>& costs) {
+  seams_by_rows(image, canvas, [&](int seam_y, const std::vector<std::int64_t>& costs) {
     const int last_y = std::min(canvas.height - 1 - half, seam_y + options.reach);
     for (int seam_x = 0; seam_x < canvas.width; ++seam_x) {
       if (costs[static_cast<std::size_t>(seam_x)] <= options.seam_threshold) continue;

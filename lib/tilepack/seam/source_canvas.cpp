@@ -1,6 +1,7 @@
 #include "tilepack/seam/source_canvas.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace tilepack {
 
@@ -40,38 +41,45 @@ std::int64_t seam_cost(const FeatureImage& image, SourceTexel p_source, SourceTe
   return difference + image.flat_seam * flat / (4 * 255);
 }
 
-namespace {
-
-// visit(index of p, index of q, cost) for all pairs of neighbours.
-template <typename Visit>
-void for_each_pair(const FeatureImage& image, const SourceCanvas& canvas, Visit&& visit) {
-  for (int y = 0; y < canvas.height; ++y)
-    for (int x = 0; x < canvas.width; ++x) {
-      const std::size_t p = canvas.index(x, y);
-      if (x + 1 < canvas.width)
-        visit(p, p + 1, seam_cost(image, canvas.texels[p], canvas.texels[p + 1], 1, 0));
+void seams_by_rows(const FeatureImage& image, const SourceCanvas& canvas,
+                   const std::function<void(int, const std::vector<std::int64_t>&)>& visit) {
+  const auto w = static_cast<std::size_t>(canvas.width);
+  std::vector<std::int64_t> own(w), below(w);
+  for (int y = 0; y < canvas.height; ++y) {
+    const SourceTexel* row = canvas.texels.data() + canvas.index(0, y);
+    for (std::size_t x = 0; x < w; ++x) {
+      if (x + 1 < w) {
+        const std::int64_t cost = seam_cost(image, row[x], row[x + 1], 1, 0);
+        own[x] += cost;
+        own[x + 1] += cost;
+      }
       if (y + 1 < canvas.height) {
-        const std::size_t q = canvas.index(x, y + 1);
-        visit(p, q, seam_cost(image, canvas.texels[p], canvas.texels[q], 0, 1));
+        const std::int64_t cost = seam_cost(image, row[x], row[x + w], 0, 1);
+        own[x] += cost;
+        below[x] += cost;
       }
     }
-}
-
-} // namespace
-
-std::int64_t seam_energy(const FeatureImage& image, const SourceCanvas& canvas) {
-  std::int64_t sum = 0;
-  for_each_pair(image, canvas, [&](std::size_t, std::size_t, std::int64_t cost) { sum += cost; });
-  return sum;
+    visit(y, own);
+    own.swap(below);
+    std::fill(below.begin(), below.end(), 0);
+  }
 }
 
 std::vector<std::int64_t> seams_at_texels(const FeatureImage& image, const SourceCanvas& canvas) {
-  std::vector<std::int64_t> costs(canvas.texels.size());
-  for_each_pair(image, canvas, [&](std::size_t p, std::size_t q, std::int64_t cost) {
-    costs[p] += cost;
-    costs[q] += cost;
+  std::vector<std::int64_t> shares;
+  shares.reserve(canvas.texels.size());
+  seams_by_rows(image, canvas, [&](int, const std::vector<std::int64_t>& row) {
+    shares.insert(shares.end(), row.begin(), row.end());
   });
-  return costs;
+  return shares;
+}
+
+std::int64_t seam_energy(const FeatureImage& image, const SourceCanvas& canvas) {
+  std::int64_t twice = 0; // each seam is shared by two texels
+  seams_by_rows(image, canvas, [&](int, const std::vector<std::int64_t>& row) {
+    twice = std::accumulate(row.begin(), row.end(), twice);
+  });
+  return twice / 2;
 }
 
 } // namespace tilepack

@@ -4,6 +4,7 @@
 #include "tilepack/tileset/source_map.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tilepack {
@@ -34,5 +35,10 @@ std::int64_t seam_energy(const FeatureImage& image, const SourceCanvas& canvas);
 
 /// Each texel's share of the seams around it: half the cost of each seam it is part of, times two.
 std::vector<std::int64_t> seams_at_texels(const FeatureImage& image, const SourceCanvas& canvas);
+
+/// The same row by row, from the first on, for canvases so large that the shares would take much room: visit(row, a share
+/// for each of its texels).
+void seams_by_rows(const FeatureImage& image, const SourceCanvas& canvas,
+                   const std::function<void(int, const std::vector<std::int64_t>&)>& visit);
 
 } // namespace tilepack

@@ -74,17 +74,20 @@ FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::i
                          const PeriodAlignment& alignment) {
   const double side = std::min(tile.width, tile.height);
   const double lattice = alignment.lattice_period();
-  const double wanted = settings.reach_of_scale * object_scale / side;
-  if (lattice > 0)
+  if (lattice > 0) {
+    settings.structure.most_strong_share = settings.most_strong_share_of_lattice;
     settings.reach = std::clamp(settings.reach_of_half_period * lattice / 2 / side,
                                 settings.longest_reach_in_step, settings.longest_reach_of_lattice);
-  else
-    settings.reach = std::clamp(wanted, settings.reach,
+  } else {
+    settings.reach = std::clamp(settings.reach_of_scale * object_scale / side, settings.reach,
                                 alignment.free() ? settings.longest_reach : settings.longest_reach_in_step);
+    // Not of a lattice: its variance is that of joints, in which all parts agree, and a bias by it would rather cut
+    // bricks in two than go round them.
+    settings.interiors.bias = std::max<std::int64_t>(
+        settings.interiors.bias,
+        static_cast<std::int64_t>(settings.bias_of_variance * static_cast<double>(variance)));
+  }
   settings.corner_reach = std::max(settings.corner_reach, settings.reach * settings.corner_reach_of_reach);
-  const double share = lattice > 0 ? settings.bias_of_variance_of_lattice : settings.bias_of_variance;
-  settings.interiors.bias = std::max<std::int64_t>(
-      settings.interiors.bias, static_cast<std::int64_t>(share * static_cast<double>(variance)));
   settings.set_repair.price =
       static_cast<std::int64_t>(settings.price_of_bias * static_cast<double>(settings.interiors.bias));
   return settings;

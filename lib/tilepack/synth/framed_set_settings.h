@@ -130,11 +130,14 @@ struct FramedSetSettings {
   /// The same where tiles hold whole periods of the sample along one axis (PeriodAlignment): parts in step join well
   /// anyway, and wide strips show less of the sample. (q; planks of tests/quality)
   double longest_reach_in_step = 0.2;
-  /// Where they do along both, so many times half the longer period, and at least as much as that: a cut that goes
+  /// Where they do along both, so many times half the longer period: a cut that goes
   /// round bricks, which are laid by half, goes along a joint for half a brick from each course to the next, and wants
-  /// some room to choose. By eye, at bricks of different tones, which shorter strips cut in two.
+  /// a little room; borders lie on joints (cheapest_lines). By eye, at bricks of different tones, which shorter strips cut in two.
   double reach_of_half_period = 1.1;
   double longest_reach_of_lattice = 0.45; ///< and at most: what is left to insides alone is never nothing
+  /// There, too: StructureOptions::most_strong_share. Of boards and what repeats along one axis it would make knots
+  /// outlines, and cuts go round them until all tiles show one (seen on drawn boards).
+  double most_strong_share_of_lattice = 0.35;
   /// Between the two the reach is so many times object_scale(): what is seen as one object is about 4 scales
   /// wide, and a cut has to find a way round it; a fourth more is room to choose. Scales are 3.6 (cracked
   /// asphalt), 3.8 (gravel) … 4.9 (bark), 6.9 (leaves), 9.9 (cracked mud), 10.6 (stone wall), 14.5 (pebbles), 21.5
@@ -145,11 +148,8 @@ struct FramedSetSettings {
   double corner_reach = 0.1875;
   double corner_reach_of_reach = 1.07; ///< and at least so many times the reach: 3/8 becomes 0.4 (j)
   /// InteriorOptions::bias as a share of the sample's variance (variance_of): more of it shows more of the sample, at
-  /// the price of hairlines. (j)
+  /// the price of hairlines. Not where tiles hold whole periods along both axes. (j)
   double bias_of_variance = 0.08;
-  /// The same where tiles hold whole periods along both axes: the variance is that of joints, in which all parts agree,
-  /// and a bias by it would rather cut bricks in two than go round them.
-  double bias_of_variance_of_lattice = 0.0;
   /// SetRepairOptions::price as a share of that bias: what tiles share should not grow where little is mended. (j)
   double price_of_bias = 1.0;
   int smallest_search_tile =
