@@ -31,9 +31,7 @@ void refuse_worse(const BakeJob& job, const BakeFacts& facts, const JudgingWatch
 
 void judge(const BakeJob& job, JobWatch& watch, BakeFacts& facts, bool always, const JudgingWatch& judging) {
   const bool is_transition = !job.transition.empty();
-  if (is_transition && job.apply_advice)
-    throw Error(ErrorKind::usage, field("apply-advice"),
-                fmt::format("does not go with {}; bake again by hand", field("transition")));
+  check_advice(job);
   if (is_transition && !job.require.empty()) {
     watch.accept = [&job, &facts, judging](const BakedJob& baked) {
       facts = bake_facts(baked.made, baked.samples);

@@ -18,8 +18,7 @@ struct JudgingWatch {
 /// Makes the run of a job that `watch` goes to keep what the job says of its verdict: `apply_advice` bakes again with
 /// what the verdict names, twice at most, and `require` refuses what is worse with Error (check_failed) before
 /// anything is written. `facts`, which must outlive the run, gets those of the pack; where neither is asked for,
-/// they are worked out while files are written, and only if `always`. Throws Error (usage) for the field
-/// "apply-advice" of a transition.
+/// they are worked out while files are written, and only if `always`. Throws what check_advice() does.
 void judge(const BakeJob& job, JobWatch& watch, BakeFacts& facts, bool always, const JudgingWatch& judging);
 
 } // namespace tilepack::cli

@@ -28,7 +28,13 @@ void make_bake(const BakeJob& job, const Progress& progress) {
   watch.progress = [&](std::string_view, std::string_view stage, double done) {
     report(progress, stage, done);
   };
-  judge(job, watch, story.facts, !job.report.empty(), {});
+  std::string remark; // of a verdict that refused the set
+  JudgingWatch judging;
+  judging.refused = [&](const BakeFacts& facts) {
+    const auto remarks = bake_verdict(facts).remarks;
+    if (!remarks.empty()) remark = spelled(remarks.front().text, FieldSpelling::json);
+  };
+  judge(job, watch, story.facts, !job.report.empty(), judging);
   watch.page = [&](const BakedJob& baked) {
     story.stages = baked.stages;
     return bake_page(story, baked.made, baked.samples);
@@ -36,11 +42,8 @@ void make_bake(const BakeJob& job, const Progress& progress) {
   try {
     run(job, watch);
   } catch (const Error& error) {
-    const auto remarks = bake_verdict(story.facts).remarks;
-    if (error.kind() != ErrorKind::check_failed || remarks.empty()) throw;
-    throw Error(
-        error.kind(), job.place,
-        fmt::format("{} ({})", error.what_happened(), spelled(remarks.front().text, FieldSpelling::json)));
+    if (remark.empty()) throw;
+    throw Error(error.kind(), job.place, fmt::format("{} ({})", error.what_happened(), remark));
   }
 }
 

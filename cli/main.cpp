@@ -109,12 +109,12 @@ bool print_made(const std::vector<std::string>& arguments, Console& console) {
 [[noreturn]] void refuse_option_first(const std::vector<std::string>& arguments) {
   const auto verb = std::find_if(arguments.begin(), arguments.end(),
                                  [](const std::string& word) { return find_verb(word) != nullptr; });
-  std::string meant;
-  if (verb != arguments.end()) {
-    meant = ": tilepack " + *verb;
-    for (auto word = arguments.begin(); word != arguments.end(); ++word)
-      if (word != verb) meant += ' ' + *word;
-  }
+  if (verb == arguments.end())
+    throw Error(ErrorKind::usage, "",
+                fmt::format("'{}' is no verb, and one is missing; `tilepack help` lists them", arguments[0]));
+  std::string meant = ": tilepack " + *verb;
+  for (auto word = arguments.begin(); word != arguments.end(); ++word)
+    if (word != verb) meant += ' ' + *word;
   throw Error(ErrorKind::usage, "",
               fmt::format("'{}' stands before the verb; options come after it{}", arguments[0], meant));
 }

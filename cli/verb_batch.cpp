@@ -278,9 +278,10 @@ Verb batch_verb() {
           "  \"jobs\": [{\"samples\": \"textures/*.png\", \"output\": \"packs/{stem}\"},\n"
           "           {\"verb\": \"shader\", \"packs\": \"packs/*\", \"options\": {\"lang\": \"glsl\"},\n"
           "            \"output\": \"shaders/{stem}.glsl\"}]}\n"
-          "Verbs of entries: bake (the default), pack, render, compose, shader, view, inspect, validate, "
-          "compare.\n"
-          "Exit code: the highest of all entries that failed.\n",
+          "Verbs of entries: " +
+              fmt::format("{}", fmt::join(batch_verb_names(), ", ")) +
+              "; without one, bake.\n"
+              "Exit code: the highest of all entries that failed.\n",
           declare_batch};
 }
 

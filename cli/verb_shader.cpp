@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,11 +22,9 @@ struct ShaderArguments {
   std::string border = "wrap";
 };
 
-// The folder's own name, so that the text does not depend on where the pack lies.
+// By the pack's name, so that the text does not depend on where it lies.
 std::string command_of(const ShaderArguments& a) {
-  std::filesystem::path folder =
-      std::filesystem::absolute(pack_json_of(a.pack)).lexically_normal().parent_path();
-  std::string command = fmt::format("tilepack shader {} --lang {}", folder.filename().string(), a.language);
+  std::string command = fmt::format("tilepack shader {} --lang {}", pack_name(a.pack), a.language);
   if (a.name != "tilepack") command += " --name " + a.name;
   if (a.border != "wrap") command += " --border " + a.border;
   return command;

@@ -64,9 +64,8 @@ int run_view(const ViewArguments& a, Console& console) {
                 fmt::format("goes with scenes, whose animations it is the time of; {} is a pack", a.pack));
   check_outputs(std::vector<OutputFile>{{"--output", a.output}}, files_of_pack(a.pack));
   const Pack pack = read_pack(a.pack);
-  // The folder's own name, so that the page does not depend on where the pack lies.
-  const std::string folder =
-      std::filesystem::absolute(pack_json_of(a.pack)).lexically_normal().parent_path().filename().string();
+  // So that the page does not depend on where the pack lies.
+  const std::string folder = pack_name(a.pack);
   ViewPageSettings settings;
   settings.title = folder;
   settings.made_by = fmt::format("tilepack view {}", folder);

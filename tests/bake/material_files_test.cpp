@@ -214,6 +214,9 @@ TEST_CASE("images that are no maps of the material are told apart, and without f
     CHECK(note.find(part) != std::string::npos);
   }
   CHECK(material_files(mixed, "w", "art").unlike.empty());
+  const List scans{"w_albedo.tif", "w_normal.tif", "photo.TIF"};
+  CHECK(note_on_unlike(material_files(scans, "", "art"), "art").find("art/*.TIF\"") != std::string::npos);
+  CHECK(fault({"a.jpg", "b.jpg"}).find("*.jpg\"") != std::string::npos);
   const std::string refused = fault({"w_albedo.png", "photo.png", "sand.png"});
   CHECK(refused.find("w_albedo.png, and photo.png, sand.png; name the one to bake") != std::string::npos);
   CHECK(recognised({"w_albedo.png", "photo.png"}, "w").size() == 1);

@@ -138,6 +138,20 @@ class WhatIsMade(Batch):
         self.manifest({"verb": "view", "pack": "scene.json", "output": "pages/scene.html"})
         self.assertIn("changed", self.plan("m.json")["pages/scene.html"])
 
+    def test_checks_and_figures_of_a_scene_hang_on_what_the_scene_names(self):
+        self.noise_png("picture.png", 16, 16)
+        self.write_json("scene.json", {"format": "tilepack-scene", "version": 1, "size": [128, 128], "output": "look",
+                                       "nodes": {"cells": {"block": "tile-map", "cells": [8, 8]},
+                                                 "look": {"block": "reference-texture", "patterns": ["picture.png"], "place": "cells"}}})
+        self.manifest({"verb": "validate", "pack": "scene.json", "output": "checks.txt"},
+                      {"verb": "inspect", "pack": "scene.json", "output": "figures.txt"})
+        self.assertEqual(self.counts("m.json"), {"built": 2})
+        self.assertEqual(self.counts("m.json"), {"current": 2})
+        self.noise_png("picture.png", 16, 16, seed=9)
+        self.assertEqual(self.plan("m.json"), {name: "scene picture.png changed" for name in ("checks.txt", "figures.txt")})
+        os.remove(self.path("picture.png"))
+        self.assertEqual(self.counts("m.json", code=3), {"failed": 2})
+
     def test_texts_that_name_their_pack_are_not_taken_from_another_of_the_same_content(self):
         self.samples("a")
         shutil.copy(self.path("in/a.png"), self.path("in/b.png"))
@@ -328,6 +342,7 @@ class Failures(Batch):
         for entry, code, saying in (
                 ('{"sample": "in/a.png"}', 3, ["m.json:4: jobs[1]", '"output" is missing']),
                 ('{"sampel": "in/a.png", "output": "b"}', 3, ["m.json:4: jobs[1]", 'did you mean "sample"']),
+                ('{"sample": "in/a.png", "output": "b",\n "sead": 7}', 3, ['m.json:5: jobs[1].sead: unknown field; known are']),
                 ('{"sample": 7, "output": "b"}', 3, ["m.json:4: jobs[1].sample"]),
                 ('{"samples": "no/*.png", "output": "b"}', 2, ["m.json:4: jobs[1].samples", "matches nothing"]),
                 ('{"sample": "in/a.png",\n "output": "packs/a"}', 3, ["m.json:5: jobs[1].output", "entry on line 3"]),
@@ -350,7 +365,7 @@ class Failures(Batch):
         for entry, saying in (
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"require": "best"}}', 'm.json:5: "require": \'best\' is not allowed; it must be good or fair'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"apply-advice": "yes"}}', 'm.json:5: "apply-advice": \'yes\' is not allowed'),
-                ('{"transition": ["in/a.png", "in/a.png"], "output": "b",\n "options": {"apply-advice": true}}', '"apply-advice" does not go with a transition'),
+                ('{"transition": ["in/a.png", "in/a.png"], "output": "b",\n "options": {"apply-advice": true}}', 'm.json:4 "apply-advice": does not go with "transition"; give'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"sede": 1}}', 'm.json:5: "sede": is no option of bake; did you mean "seed"?'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": "x"}}', 'm.json:5: "seed": \'x\' is not allowed'),
                 ('{"sample": "in/a.png", "output": "b",\n "options": {"seed": [1, 2]}}', 'm.json:5: "seed": has several values'),

@@ -218,7 +218,7 @@ class SmallScene(CommandCase):
         self.assertIn("TP801", self.run_tilepack("validate", "s.json", code=5).stdout)
         self.write("s.json", json.dumps({"format": "tilepack-scene", "version": 1, "size": [64, 64], "nodes": n, "output": "look", "sead": 3}, indent=1))
         line = 1 + self.contents()["s.json"].decode().split('"sead"')[0].count("\n")
-        self.refused("compose", "s.json", "-o", "s.png", code=3, saying=f's.json:{line}: sead: unknown field "sead"; did you mean "seed"?')
+        self.refused("compose", "s.json", "-o", "s.png", code=3, saying=f's.json:{line}: sead: unknown field; did you mean "seed"?')
         self.assertIn(f"s.json:{line}", self.run_tilepack("validate", "s.json", code=5).stdout)
         self.scene({**n, "left": {"block": "time"}})
         self.assertIn("TP813", self.run_tilepack("validate", "s.json").stdout)

@@ -31,7 +31,7 @@ class FirstHour(CommandCase):
             ((".",), "tilepack bake . -o material.pack"),
             (("insp",), "did you mean 'inspect'?"),
             (("-q", "bake", "g.png", "-o", "a"), "options come after it: tilepack bake -q g.png -o a"),
-            (("--quiet", "g.png"), "'--quiet' stands before the verb; options come after it"),
+            (("--quiet", "g.png"), "'--quiet' is no verb, and one is missing; `tilepack help` lists them"),
         )
         for arguments, saying in cases:
             with self.subTest(arguments=arguments):

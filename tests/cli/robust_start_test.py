@@ -47,7 +47,7 @@ class RobustStart(CommandCase):
 
     @unittest.skipIf(os.environ.get("TILEPACK_SANITIZED") == "1", "the address sanitizer itself takes more than any limit")
     def test_little_address_space_holds_up_no_library_that_is_not_needed(self):
-        # OpenBLAS, which OpenCV brings, tries for ever to get memory for its threads, and never lets them be ended.
+        # OpenBLAS, which OpenImageIO brings, tries for ever to get memory for its threads, and never lets them be ended.
         codes = set()
         for mebibytes in (90, 120, 150, 200, 300):
             done = self.limited([(resource.RLIMIT_AS, mebibytes << 20)], "bake", self.sample, "-o", f"p{mebibytes}", "--tile-size", "16",

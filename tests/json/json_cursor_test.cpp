@@ -42,6 +42,12 @@ TEST_CASE("messages name the place, the value and the range", "[pack]") {
              Contains("maps: has 1 entries; it must have 2 to 3"));
   CHECK_THAT(fault([&] { root.member("name").one_of({"a", "b"}); }), Contains(R"(one of "a", "b")"));
   CHECK_THAT(fault([&] { root.only({"maps", "named", "big"}); }), Contains("did you mean \"named\""));
+  CHECK(fault([&] { root.member("maps").item(0).only({"sizes"}); }) ==
+        R"(f.json: maps[0].size: unknown field; did you mean "sizes"?)");
+  CHECK_THAT(fault([&] { parsed(R"({"a b": 1})").only({"c"}); }),
+             Contains(R"(f.json: unknown field "a b"; known are c)"));
+  const std::string endless(100'000, 'a');
+  CHECK(fault([&] { parsed(R"({")" + endless + R"(": 1})").only({"c"}); }).size() < 100);
 }
 
 TEST_CASE("values of the wrong type are refused", "[pack]") {

@@ -33,6 +33,9 @@ TEST_CASE("an atlas has every tile in its cell, and gives them back") {
   CHECK(image.texel(cell.column * 5 + 4, cell.row * 3 + 2)[0] == 17.0f);
   CHECK(image.texel(cell.column * 5 + 4, cell.row * 3 + 2)[1] == 14.0f);
   CHECK(tiles_of(image, layout) == tiles);
+  std::vector<Image> given_up = tiles;
+  CHECK(atlas(std::move(given_up), layout) == image);
+  for (const Image& tile : given_up) CHECK(tile.empty());
 }
 
 TEST_CASE("atlas and tiles_of refuse what doesn't fit the grid") {
@@ -41,5 +44,6 @@ TEST_CASE("atlas and tiles_of refuse what doesn't fit the grid") {
   std::vector<Image> uneven = numbered_tiles(16, {4, 4});
   uneven[3] = Image(4, 5, 2);
   CHECK_THROWS_AS(atlas(uneven, layout), Error);
+  CHECK_THROWS_AS(atlas(std::move(uneven), layout), Error);
   CHECK_THROWS_AS(tiles_of(Image(17, 16, 1), layout), Error);
 }

@@ -82,6 +82,7 @@ TEST_CASE("the schema's numbers are the limits of the library", "[pack]") {
            {"/$defs/maps/items/properties/levels/maxItems", most_chain_levels},
            {"/$defs/mips/properties/tile_levels/maximum", most_levels},
            {"/$defs/mips/properties/guard/maximum", largest_tile_side},
+           {"/$defs/mips/properties/jump_weight/maximum", most_jump_weight},
            {"/$defs/virtual_size/items/maximum", longest_virtual_side},
            {"/$defs/index/properties/virtual_size/items/maximum", longest_index_side},
            {"/$defs/permutation/properties/table/maxItems", longest_table},
@@ -126,6 +127,7 @@ TEST_CASE("FORMAT.md tells the limits of the library", "[pack]") {
   CHECK(said(page, "`seed`, 0 to " + number) == static_cast<std::int64_t>(largest_seed));
   CHECK(said(page, "`even`, for 2 to " + number + " corner colors") == most_corner_colors);
   CHECK(said(page, "of `virtual_size` texels, at most " + number) == most_index_cells);
+  CHECK(said(page, "`jump_weight` \\| 0 to " + number) == most_jump_weight);
   CHECK(said(page, "`tile_levels` \\| 1 to " + number) == most_levels);
   CHECK(said(page, "`distinct_tiles` \\| 0 to " + number) == most_tiles);
 }

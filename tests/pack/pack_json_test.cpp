@@ -49,7 +49,113 @@ bool is_free_text(const std::string& place) {
          place == "/generator/version";
 }
 
+void check_same_map(const PackedMap& read, const PackedMap& written) {
+  CHECK(static_cast<const MapFormat&>(read) == written);
+  CHECK(read.channels == written.channels);
+  CHECK(read.round_trips == written.round_trips);
+  CHECK(read.stored() == written.stored());
+}
+
+// But for what lies in images. A field that Pack gets is to be compared here too: without it nothing compiles.
+void check_same(const Pack& read, const Pack& written) {
+  const auto& [generator, tile_size, colors, tiles, layout, maps, mapping, corner_pack, mip_mode, jump_weight,
+               guard, tile_levels, full_chain, materials, synthesis] = written;
+  CHECK(read.generator.name == generator.name);
+  CHECK(read.generator.version == generator.version);
+  CHECK(read.generator.options == generator.options);
+  CHECK(read.generator.seed == generator.seed);
+  CHECK(read.tile_size == tile_size);
+  CHECK(read.colors == colors);
+  CHECK(read.tiles == tiles);
+  CHECK(read.layout == layout);
+  REQUIRE(read.maps.size() == maps.size());
+  for (std::size_t m = 0; m < maps.size(); ++m) check_same_map(read.maps[m], maps[m]);
+  CHECK(read.mapping.kind == mapping.kind);
+  CHECK(read.mapping.size == mapping.size);
+  CHECK(read.mapping.table == mapping.table);
+  CHECK(read.mapping.seed == mapping.seed);
+  CHECK(read.mapping.variants == mapping.variants);
+  REQUIRE(read.corner_pack.has_value() == corner_pack.has_value());
+  if (corner_pack) {
+    CHECK(read.corner_pack->columns == corner_pack->columns);
+    CHECK(read.corner_pack->rows == corner_pack->rows);
+    CHECK(read.corner_pack->width == corner_pack->width);
+    REQUIRE(read.corner_pack->maps.size() == corner_pack->maps.size());
+    for (std::size_t m = 0; m < corner_pack->maps.size(); ++m)
+      check_same_map(read.corner_pack->maps[m], corner_pack->maps[m]);
+  }
+  CHECK(read.mip_mode == mip_mode);
+  CHECK(read.jump_weight == jump_weight);
+  CHECK(read.guard == guard);
+  CHECK(read.tile_levels == tile_levels);
+  CHECK(read.full_chain == full_chain);
+  CHECK(read.materials == materials);
+  CHECK(read.synthesis == synthesis);
+}
+
+void check_comes_back(const Pack& pack) {
+  check_same(parsed_pack_json(pack_json(described(pack)), "pack.json").pack, pack);
+}
+
+// Whatever may be left out, as far as coloring and layout let it be there.
+void fill_optional_fields(Pack& pack) {
+  pack.mip_mode = MipMode::least_squares;
+  pack.jump_weight = 7;
+  pack.guard = 1;
+  pack.full_chain = true;
+  pack.synthesis = SetFigures{};
+  for (const SetFigureField& field : set_figure_fields) (*pack.synthesis).*field.value = 0.5;
+  pack.maps[0].role = Role::data;
+  pack.maps[0].contents = {ChannelContent::ao, ChannelContent::roughness, ChannelContent::metallic};
+  pack.maps[1].range = ValueRange{-2, 3};
+  for (PackedMap& map : pack.maps)
+    for (const Size size : far_level_sizes(pack.layout, pack.tile_size, pack.tile_levels))
+      map.far_levels.emplace_back(size.width, size.height, map.channels);
+}
+
+// Of a pack with two colors of edges.
+CornerPack corner_pack_for(const Pack& pack) {
+  Layout grid;
+  grid.columns = grid.rows = 4;
+  CornerPack corners{grid.columns, grid.rows, 1.5, pack.maps};
+  for (PackedMap& map : corners.maps) {
+    map.levels.clear();
+    map.far_levels.clear();
+    for (int level = 0; level < pack.tile_levels; ++level) {
+      const Size size = texture_size(grid, pack.tile_size, level);
+      map.levels.emplace_back(size.width, size.height, map.channels);
+    }
+    for (const Size size : far_level_sizes(grid, pack.tile_size, pack.tile_levels))
+      map.far_levels.emplace_back(size.width, size.height, map.channels);
+  }
+  return corners;
+}
+
 } // namespace
+
+TEST_CASE("every field of a pack is written and read back, optional ones too", "[pack]") {
+  for (const MappingKind mapping : all_mappings)
+    for (const int variants : {1, 3}) {
+      Pack pack = test::noise_pack(mapping, Depth::u16, 5, variants);
+      check_comes_back(pack);
+      fill_optional_fields(pack);
+      if (coloring_of(pack.tiles) == Coloring::edge)
+        pack.corner_pack = corner_pack_for(pack);
+      else
+        pack.materials = {"pebbles", "sand"};
+      check_comes_back(pack);
+      pack.maps[0].role = Role::normal;
+      pack.maps[0].contents.clear();
+      pack.maps[0].normal_y = NormalY::down;
+      if (pack.corner_pack) pack.corner_pack = corner_pack_for(pack);
+      check_comes_back(pack);
+    }
+  Pack plain = test::noise_pack();
+  for (PackedMap& map : plain.maps) map.levels.resize(1);
+  plain.mip_mode = MipMode::none;
+  plain.tile_levels = 1;
+  check_comes_back(plain);
+}
 
 TEST_CASE("text and description are two forms of one thing", "[pack]") {
   for (const MappingKind mapping : all_mappings) {

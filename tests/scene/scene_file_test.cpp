@@ -100,7 +100,7 @@ TEST_CASE("what is wrong with a scene is said with file, line, node and input") 
       refused(
           cells +
           R"(, "look": {"block": "reference-texture", "patterns": ["a.png"], "place": "cells", "seemless": true})"),
-      Contains("nodes.look: unknown field \"seemless\"; did you mean \"seamless\"?"));
+      Contains("nodes.look.seemless: unknown field; did you mean \"seamless\"?"));
   CHECK_THAT(
       refused(
           R"("cells": {"block": "tile-map", "cells": [16, 4294967296]}, "look": {"block": "pack", "file": "a.pack"})"),

@@ -308,7 +308,8 @@ std::vector<BakeField> make_fields() {
        "levels go on past one texel a tile, down to the mean of the pack: for engines that can't be told "
        "which "
        "level is the last"},
-      {"jump-weight", packing, whole_number(0, 1000, at(&O::mips, &MipOptions::jump_weight)),
+      {"jump-weight", packing,
+       whole_number(0, limits::most_jump_weight, at(&O::mips, &MipOptions::jump_weight)),
        "mips least-squares: cost of a jump across a border against that of an error, 0 to 1000"},
       {"roughness-from-normals", material, flag(at(&O::mips, &MipOptions::roughness_from_normals)),
        "coarser levels of roughness take up the spread of the normals they average"},

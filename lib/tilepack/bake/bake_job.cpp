@@ -239,6 +239,14 @@ BakeOptions options_of(const BakeJob& job) {
   return blaming(job, [&](const auto& settings) { return options_from(job, settings); });
 }
 
+void check_advice(const BakeJob& job) {
+  if (job.transition.empty() || !job.apply_advice) return;
+  const Error error(
+      ErrorKind::usage, field("apply-advice"),
+      fmt::format("does not go with {}; give what the verdict names by hand", field("transition")));
+  throw blamed_on_job(error, job, job.settings);
+}
+
 std::vector<std::string> material_names_of(const BakeJob& job) {
   std::vector<std::string> names;
   for (const std::string& sample : job.transition) {

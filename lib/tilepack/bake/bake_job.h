@@ -51,6 +51,10 @@ struct BakeJob {
 /// The preset's settings and then the job's own.
 std::vector<BakeSetting> settings_of(const BakeJob& job);
 
+/// Throws Error (usage, or invalid_content where the job has a place) for "apply-advice" of a transition: what a verdict
+/// advises is for a bake of one material.
+void check_advice(const BakeJob& job);
+
 /// What the materials of a transition are called: as their files and folders, in letters, digits, '-' and '_', each
 /// once.
 std::vector<std::string> material_names_of(const BakeJob& job);

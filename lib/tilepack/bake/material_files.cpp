@@ -252,9 +252,12 @@ void add_unlike(const Folder& folder, const Material& material, FoundMaterial& f
   }
 }
 
-std::string for_many_samples(const std::string& place) {
-  return fmt::format("for many samples, list them in a manifest of batch: \"samples\": \"{}{}*.png\"", place,
-                     place.ends_with('/') ? "" : "/");
+// `files` are some of those in the folder `place`.
+std::string for_many_samples(const std::string& place, const std::vector<std::string>& files) {
+  const auto image = std::find_if(files.begin(), files.end(), has_readable_ending);
+  const std::string ending = image == files.end() ? ".png" : image->substr(image->rfind('.'));
+  return fmt::format("for many samples, list them in a manifest of batch: \"samples\": \"{}{}*{}\"", place,
+                     place.ends_with('/') ? "" : "/", ending);
 }
 
 } // namespace
@@ -263,7 +266,7 @@ std::string note_on_unlike(const FoundMaterial& found, const std::string& folder
   return fmt::format(
       "{} is taken as the material '{}' ({} of its images); {} {} passed over, for {} of its maps: {}",
       folder, found.name, found.files.size(), listed(found.unlike), found.unlike.size() == 1 ? "is" : "are",
-      found.unlike.size() == 1 ? "it is none" : "they are none", for_many_samples(folder));
+      found.unlike.size() == 1 ? "it is none" : "they are none", for_many_samples(folder, found.unlike));
 }
 
 FoundMaterial material_files(std::span<const std::string> file_names, const std::string& prefix,
@@ -288,7 +291,8 @@ FoundMaterial material_files(std::span<const std::string> file_names, const std:
     fail(fmt::format(
         "holds no color map by its name; {}. A color map is called like rock_albedo.png ({} lists "
         "all endings), or give the image itself as SAMPLE{}",
-        seen, field("list-maps"), folder.files.size() > 1 ? "; " + for_many_samples(place) : ""));
+        seen, field("list-maps"),
+        folder.files.size() > 1 ? "; " + for_many_samples(place, folder.files) : ""));
   }
   if (names.size() > 1)
     fail(fmt::format("holds several materials: {}; add the name of one to the path: {}",
@@ -301,7 +305,7 @@ FoundMaterial material_files(std::span<const std::string> file_names, const std:
   if (found.files.size() == 1 && !found.unlike.empty())
     fail(
         fmt::format("holds images that are not maps of one material: {}, and {}; name the one to bake, or {}",
-                    found.files.front().file, listed(found.unlike), for_many_samples(place)));
+                    found.files.front().file, listed(found.unlike), for_many_samples(place, found.unlike)));
   return found;
 }
 

@@ -44,6 +44,19 @@ std::vector<ChannelContent> contents_in(const MaterialFile& file, int channels,
   return filled_contents(file.contents, channels);
 }
 
+MaterialFile map_of_kind(const KindNamed& named, const std::string& file) {
+  return {std::string(named.kind->name), named.kind->role, file, named.kind->contents, named.normal_y};
+}
+
+// " The roles are …", with a hint before it if `word` is nearly one of them: what follows "'word' is no role".
+std::string roles_instead_of(const std::string& word) {
+  std::vector<std::string> known{"data"};
+  for (const MapKind& k : map_kinds()) known.emplace_back(k.name);
+  const std::string nearest = nearest_name(word, known);
+  return fmt::format("{} The roles are {} and data",
+                     nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest), listed_kinds());
+}
+
 } // namespace
 
 FoundMaterial sample_files(const std::string& sample) {
@@ -107,17 +120,11 @@ MaterialFile parsed_map(const std::string& text) {
   if (!kind && has_readable_ending(word) && known_kind(file))
     refuse(fmt::format("'{}' has file and role swapped; write {}", text, field("map", file + "=" + word)));
   if (!kind && word != name_of(Role::data)) {
-    std::vector<std::string> known{"data"};
-    for (const MapKind& k : map_kinds()) known.emplace_back(k.name);
-    const std::string nearest = nearest_name(word, known);
-    const std::string hint = nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest);
-    std::string name = colon == std::string::npos ? word : label.substr(0, colon);
-    refuse(fmt::format("'{}' is no role{} The roles are {} and data: any other map is {}:data=FILE", word,
-                       hint, listed_kinds(), is_map_name(name) ? name : "NAME"));
+    const std::string name = colon == std::string::npos ? word : label.substr(0, colon);
+    refuse(fmt::format("'{}' is no role{}: any other map is {}:data=FILE", word, roles_instead_of(word),
+                       is_map_name(name) ? name : "NAME"));
   }
-  MaterialFile map{label, Role::data, file};
-  if (kind)
-    map = {std::string(kind->kind->name), kind->kind->role, file, kind->kind->contents, kind->normal_y};
+  MaterialFile map = kind ? map_of_kind(*kind, file) : MaterialFile{label, Role::data, file};
   if (colon != std::string::npos) map.name = label.substr(0, colon);
   return map;
 }
@@ -130,16 +137,10 @@ std::string note_on(const PassedOver& file) {
 }
 
 MaterialFile meant_map(const std::string& word, std::string_view field_to_blame) {
-  if (const auto kind = known_kind(word))
-    return {std::string(kind->kind->name), kind->kind->role, "", kind->kind->contents, kind->normal_y};
+  if (const auto kind = known_kind(word)) return map_of_kind(*kind, "");
   if (word == name_of(Role::data)) return {word, Role::data, ""};
-  std::vector<std::string> known{"data"};
-  for (const MapKind& k : map_kinds()) known.emplace_back(k.name);
-  const std::string nearest = nearest_name(word, known);
   throw Error(ErrorKind::usage, field(field_to_blame),
-              fmt::format("'{}' is no role{} The roles are {} and data", word,
-                          nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest),
-                          listed_kinds()));
+              fmt::format("'{}' is no role{}", word, roles_instead_of(word)));
 }
 
 ReadOptions reading_of(Role role, const ReadOptions& options) {

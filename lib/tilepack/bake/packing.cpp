@@ -124,20 +124,7 @@ void convert(TileMap& map, const StoredFormat& to) {
   map.depth = to.depth;
 }
 
-// The tiles of a grid in their places, each given up once it is there: sets of large tiles are large.
-Image placed_one_by_one(std::vector<Image> tiles, const Layout& layout) {
-  const Size tile = tiles.front().size();
-  Image texture =
-      Image::unset({layout.columns * tile.width, layout.rows * tile.height}, tiles.front().channels());
-  for (const Cell& cell : layout.cells) {
-    Image& from = tiles[static_cast<std::size_t>(cell.tile)];
-    paste(texture, from, cell.column * tile.width, cell.row * tile.height);
-    from = Image();
-  }
-  return texture;
-}
-
-// Whether that is all there is to it, and every texel is some tile's.
+// Whether all tiles lie side by side as they are, and every texel is some tile's.
 bool is_plain_grid(const Layout& layout) {
   return layout.kind != LayoutKind::rotated && layout.border == 0 &&
          layout.cells.size() ==
@@ -223,7 +210,7 @@ Pack packed(TileSet set, const PackingPlan& plan, std::uint64_t seed, const Prog
     for (int level = 0; level < pack.tile_levels; ++level) {
       TileMap& tiles = level == 0 ? finest : coarser[static_cast<std::size_t>(level - 1)];
       if (done_with) {
-        map.levels.push_back(quantised(placed_one_by_one(std::move(tiles.tiles), pack.layout), map.depth));
+        map.levels.push_back(quantised(atlas(std::move(tiles.tiles), pack.layout), map.depth));
         continue;
       }
       map.levels.push_back(quantised(

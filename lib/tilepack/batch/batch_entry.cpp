@@ -6,7 +6,8 @@ namespace tilepack {
 
 bool shows_scene(const BatchEntry& entry) {
   if (entry.verb->name == "compose") return true;
-  return entry.verb->name == "view" && is_scene_file(entry.sources.front());
+  return !entry.sources.empty() && entry.verb->sources.front().is_pack &&
+         is_scene_file(entry.sources.front());
 }
 
 } // namespace tilepack

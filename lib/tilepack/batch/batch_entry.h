@@ -32,8 +32,8 @@ struct BatchEntry {
   std::vector<std::size_t> after; ///< entries, by number, whose outputs this one works from
 };
 
-/// Whether what it works from is a scene, whose packs and pictures are read too: of compose always, of view where it is
-/// one on disk.
+/// Whether what it works from is a scene, whose packs and pictures are read too: of compose always, of verbs that work
+/// from a pack where there is a scene on disk in its place.
 bool shows_scene(const BatchEntry& entry);
 
 } // namespace tilepack

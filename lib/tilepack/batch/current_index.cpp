@@ -95,6 +95,15 @@ bool take_hash(std::string_view& text, ContentHash& hash) {
   return parsed.has_value();
 }
 
+// Of so many outputs and no more: where a note was lost, not all of them are known.
+ContentHash request_for_all(const ContentHash& request, std::size_t count) {
+  ContentHasher hasher;
+  hasher.add_number(request.high);
+  hasher.add_number(request.low);
+  hasher.add_number(count);
+  return hasher.value();
+}
+
 } // namespace
 
 CurrentIndex::CurrentIndex(std::string name) : file(std::move(name)) {
@@ -149,15 +158,6 @@ bool CurrentIndex::holds(const std::string& output, const ContentHash& request) 
 bool CurrentIndex::holds(const Note& note) const {
   const auto now = state_of_files(note.files);
   return now && now->hash == note.state;
-}
-
-// Of so many outputs and no more: where a note was lost, not all of them are known.
-ContentHash CurrentIndex::request_for_all(const ContentHash& request, std::size_t count) const {
-  ContentHasher hasher;
-  hasher.add_number(request.high);
-  hasher.add_number(request.low);
-  hasher.add_number(count);
-  return hasher.value();
 }
 
 void CurrentIndex::note_all(const ContentHash& request, const std::vector<std::string>& outputs,

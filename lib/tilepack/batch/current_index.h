@@ -53,7 +53,6 @@ private:
     ContentHash state; // of all of them together
   };
   bool holds(const Note& note) const;
-  ContentHash request_for_all(const ContentHash& request, std::size_t count) const;
   std::string text() const;
   void read(std::string_view bytes);
 

@@ -72,9 +72,9 @@ void add_materials(std::vector<EntryInput>& inputs, const BakeJob& job) {
 
 // What shaders and pages name what they show by.
 std::string name_of_shown(const BatchEntry& entry) {
-  const std::string& pack = entry.sources.front();
-  if (shows_scene(entry)) return fs::path(pack).filename().string();
-  return fs::absolute(pack_json_of(pack)).lexically_normal().parent_path().filename().string();
+  const std::string& shown = entry.sources.front();
+  if (shows_scene(entry)) return fs::path(shown).filename().string();
+  return pack_name(shown);
 }
 
 } // namespace
@@ -91,14 +91,15 @@ std::vector<EntryInput> inputs_of(const Manifest& manifest, const BatchEntry& en
     for (std::size_t i = 0; i < entry.sources.size(); ++i)
       inputs.push_back({fmt::format("tile {}", i), entry.sources[i]});
   } else {
+    const bool is_scene = shows_scene(entry);
     for (std::size_t i = 0; i < entry.sources.size(); ++i) {
       const BatchSource& source = entry.verb->sources[i];
-      if (source.is_pack && !shows_scene(entry))
+      if (source.is_pack && !is_scene)
         add_pack(inputs, source.key, entry.sources[i]);
       else
         inputs.push_back({std::string(source.key), entry.sources[i]});
     }
-    if (shows_scene(entry)) add_scene_files(inputs, entry.sources.front());
+    if (is_scene) add_scene_files(inputs, entry.sources.front());
   }
   for (const std::string_view option : entry.verb->files_read)
     for (const BatchOption& given : entry.options)

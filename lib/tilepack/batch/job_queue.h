@@ -35,7 +35,8 @@ struct QueueLimits {
 /// While more wait than there are threads, each gets one thread, which wastes the least; the last ones share what
 /// is left. A job that fails keeps only those after it from running. `failed` is told each exception, in the thread
 /// of the job, before the next begins; what it throws ends the queue: nothing more is begun, and it is thrown on
-/// when all that run have ended. `failed` and `skipped` may be called by several threads at once. Whatever a job does must allow for others at its side.
+/// when all that run have ended. `failed` and `skipped` may be called by several threads at once. Whatever a job does
+/// must allow for others at its side.
 std::vector<JobEnd> run_all(const std::vector<QueuedJob>& jobs, const QueueLimits& limits,
                             const std::function<void(std::size_t job, std::exception_ptr fault)>& failed,
                             const std::function<void(std::size_t job)>& skipped);

@@ -289,8 +289,7 @@ Manifest read_manifest(const std::string& file) {
 }
 
 std::string place_in(const Manifest& manifest, std::string_view at) {
-  return fmt::format("{}:{}", manifest.file,
-                     manifest.lines ? manifest.lines->line(at) : json_line(manifest.text, at));
+  return fmt::format("{}:{}", manifest.file, manifest.lines->line(at));
 }
 
 BakeJob bake_job_of(const Manifest& manifest, const BatchEntry& entry) {
@@ -341,10 +340,7 @@ BakeJob bake_job_of(const Manifest& manifest, const BatchEntry& entry) {
                                   : fmt::format("is no option of bake; did you mean \"{}\"?", nearest));
     }
   }
-  if (job.apply_advice && entry.is_transition)
-    throw Error(ErrorKind::invalid_content, place_in(manifest, entry.at),
-                field("apply-advice") +
-                    " does not go with a transition; give what the verdict names by hand");
+  check_advice(job);
   return job;
 }
 

@@ -19,8 +19,8 @@ public:
   explicit OutputCache(std::string folder) : root(std::move(folder)) {}
 
   /// Puts the output that `key` stands for in place, as a bake would, with its side file, which says that it was
-  /// made from `inputs`. False if it is not there or damaged, and then nothing has happened. Throws Error
-  /// (cannot_write) if it can't be put there.
+  /// made from `inputs`. False if it is not there, damaged (then it is thrown away) or can't be read, and then the
+  /// output is as it was. Throws Error (cannot_write) if it can't be put there.
   bool restore(const ContentHash& key, const BatchEntry& entry, const BuildInputs& inputs) const;
 
   /// Keeps the output of `entry`. Throws Error (cannot_write), and then nothing is kept.

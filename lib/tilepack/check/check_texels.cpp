@@ -142,7 +142,7 @@ void check_guard(const LevelView& view, std::vector<Issue>& issues) {
           [&](int row) { return row == 0 && view.level == 0 ? Rule::edge_texels : Rule::guard_texels; },
           issues);
   } else if (view.level == 0) {
-    // Sanitizing makes the coarser levels what level 0 is taken to be: legal Wang tiles.
+    // Borders of coarser levels are averaged or fitted on the ground that level 0 is legal.
     const bool promised = pack.mip_mode != MipMode::none && pack.mip_mode != MipMode::box;
     const Rule rule = promised ? Rule::edge_texels : Rule::edge_texels_unpromised;
     for (const Side side : all_sides)

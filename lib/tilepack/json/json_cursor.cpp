@@ -51,7 +51,7 @@ private:
 
 // Stands in a place as it is.
 bool is_plain(std::string_view name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+  return !name.empty() && name.size() <= longest_shown && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
 }
@@ -120,10 +120,8 @@ void JsonCursor::only(std::span<const std::string> known) const {
     const std::string nearest = nearest_name(name, known);
     const std::string hint = nearest.empty() ? fmt::format("known are {}", fmt::join(known, ", "))
                                              : fmt::format("did you mean \"{}\"?", nearest);
-    const std::string what =
-        fmt::format("unknown field {}; {}", json(name).dump(-1, ' ', true).substr(0, longest_shown), hint);
-    if (path.empty() && is_plain(name)) member(name).fail(what); // whose line can be told
-    fail(what);
+    if (is_plain(name)) member(name).fail("unknown field; " + hint); // whose line can be told
+    fail(fmt::format("unknown field {}; {}", json(name).dump(-1, ' ', true).substr(0, longest_shown), hint));
   }
 }
 

@@ -22,6 +22,31 @@ Placement rotated_cell(const LayoutWords& words, int column, int row, Size textu
   return {{column * across, row * down}, {n * across, k * down}, {(0 - k) * across, n * down}};
 }
 
+// All tiles in their cells; `placed` gets each once it is there.
+template <typename Tiles, typename Placed>
+Image side_by_side_in_cells(Tiles& tiles, const Layout& layout, Placed placed) {
+  if (tiles.size() != layout.cells.size() || tiles.empty())
+    throw Error(ErrorKind::internal, "atlas",
+                fmt::format("{} tiles for a layout of {} cells; give one image a cell", tiles.size(),
+                            layout.cells.size()));
+  const Size tile = tiles.front().size();
+  const Size whole{layout.columns * tile.width, layout.rows * tile.height};
+  const int channels = tiles.front().channels();
+  const bool is_full =
+      layout.cells.size() == static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows);
+  Image image = is_full ? Image::unset(whole, channels) : Image(whole.width, whole.height, channels);
+  for (const Cell& cell : layout.cells) {
+    auto& from = tiles.at(static_cast<std::size_t>(cell.tile));
+    if (from.size() != tile)
+      throw Error(ErrorKind::internal, "atlas",
+                  fmt::format("tile {} is {} x {} texels, tile 0 {} x {}; all must have one size", cell.tile,
+                              from.width(), from.height(), tile.width, tile.height));
+    paste(image, from, cell.column * tile.width, cell.row * tile.height);
+    placed(from);
+  }
+  return image;
+}
+
 } // namespace
 
 LayoutWords layout_words(const Layout& layout, Size tile_size) {
@@ -95,21 +120,11 @@ Placement placement(const Layout& layout, int tile, Size tile_size, int level) {
 }
 
 Image atlas(const std::vector<Image>& tiles, const Layout& layout) {
-  if (tiles.size() != layout.cells.size() || tiles.empty())
-    throw Error(ErrorKind::internal, "atlas",
-                fmt::format("{} tiles for a layout of {} cells; give one image a cell", tiles.size(),
-                            layout.cells.size()));
-  const Size tile = tiles.front().size();
-  Image image(layout.columns * tile.width, layout.rows * tile.height, tiles.front().channels());
-  for (const Cell& cell : layout.cells) {
-    const Image& from = tiles.at(static_cast<std::size_t>(cell.tile));
-    if (from.size() != tile)
-      throw Error(ErrorKind::internal, "atlas",
-                  fmt::format("tile {} is {} x {} texels, tile 0 {} x {}; all must have one size", cell.tile,
-                              from.width(), from.height(), tile.width, tile.height));
-    paste(image, from, cell.column * tile.width, cell.row * tile.height);
-  }
-  return image;
+  return side_by_side_in_cells(tiles, layout, [](const Image&) {});
+}
+
+Image atlas(std::vector<Image>&& tiles, const Layout& layout) {
+  return side_by_side_in_cells(tiles, layout, [](Image& tile) { tile = Image(); });
 }
 
 std::vector<Image> tiles_of(const Image& image, const Layout& layout) {

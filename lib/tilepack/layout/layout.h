@@ -125,6 +125,9 @@ Placement placement(const LayoutWords& words, int column, int row, int level);
 /// image of columns × rows tiles.
 Image atlas(const std::vector<Image>& tiles, const Layout& layout);
 
+/// The same, each tile given up once it is in its place: sets of large tiles are large.
+Image atlas(std::vector<Image>&& tiles, const Layout& layout);
+
 /// Inverse of atlas: the tiles by id, cut out of `image`, whose size must be a multiple of the grid.
 std::vector<Image> tiles_of(const Image& image, const Layout& layout);
 

@@ -82,6 +82,10 @@ fs::path folder_of(const fs::path& pack_json) {
   return pack_json.has_parent_path() ? pack_json.parent_path() : fs::path(".");
 }
 
+std::string pack_name(const fs::path& folder_or_json) {
+  return fs::absolute(pack_json_of(folder_or_json)).lexically_normal().parent_path().filename().string();
+}
+
 void throw_replaced_again_and_again(const fs::path& folder) {
   throw Error(ErrorKind::cannot_read, folder.string(),
               "is being replaced by another process again and again; try again when that has ended");

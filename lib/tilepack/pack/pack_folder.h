@@ -23,6 +23,9 @@ std::filesystem::path pack_json_of(const std::filesystem::path& folder_or_json);
 /// The folder that holds `pack_json`, "." for a bare name.
 std::filesystem::path folder_of(const std::filesystem::path& pack_json);
 
+/// What a pack is called: as the folder that holds it, wherever that lies. Shaders and pages name it so.
+std::string pack_name(const std::filesystem::path& folder_or_json);
+
 /// A pack folder held open, and every file that its pack.json names: whoever replaces the pack meanwhile, what is
 /// read here is the pack that was there when it was opened, all of it.
 ///

@@ -355,7 +355,7 @@ void read_mips(const JsonCursor& value, Pack& pack) {
   if (const auto weight = value.find("jump_weight")) {
     if (pack.mip_mode != MipMode::least_squares)
       weight->fail(fmt::format("is there though \"sanitize\" is {}", sanitize.shown()));
-    pack.jump_weight = weight->small_integer(0, 1000);
+    pack.jump_weight = weight->small_integer(0, limits::most_jump_weight);
   }
   pack.guard = value.member("guard").small_integer(0, std::max(pack.tile_size.width, pack.tile_size.height));
   pack.tile_levels =

@@ -53,6 +53,9 @@ inline constexpr int largest_layer_border = largest_tile_side / 2;
 inline constexpr int most_levels = 13;
 inline constexpr int most_chain_levels = 17;
 
+/// What a jump across a border may cost against an error, when coarser levels are fitted (mip/least_squares.h).
+inline constexpr int most_jump_weight = 1000;
+
 /// Maps of a pack, channels of one, and letters of a map's name, which is part of file names.
 inline constexpr int most_maps = 64;
 inline constexpr int most_map_channels = 4;
