@@ -50,7 +50,7 @@ int view_scene(const ViewArguments& a, Console& console) {
   constexpr double sharp = 4; // cells a texel: up to there the overview takes over without a blur
   if (page.cells_a_texel > sharp)
     console.note(fmt::format(
-        "from afar the page shows an overview with a texel every {:.0f} cells; pixels of 4 to {:.0f} "
+        "from afar the page shows an overview with a texel every {:.0f} cells; pixels of 2 to {:.0f} "
         "cells are blurred, which `compose` draws sharp",
         page.cells_a_texel, page.cells_a_texel));
   return 0;
@@ -59,10 +59,12 @@ int view_scene(const ViewArguments& a, Console& console) {
 int run_view(const ViewArguments& a, Console& console) {
   check_page_name({"--output", a.output});
   if (is_scene_file(a.pack)) return view_scene(a, console);
-  if (a.time)
-    throw Error(ErrorKind::usage, "--time",
-                fmt::format("goes with scenes, whose animations it is the time of; {} is a pack", a.pack));
   check_outputs(std::vector<OutputFile>{{"--output", a.output}}, files_of_pack(a.pack));
+  if (a.time)
+    throw Error(
+        ErrorKind::usage, "--time",
+        fmt::format("goes with scenes, whose animations it is the time of; {} is a pack; leave it out",
+                    a.pack));
   const Pack pack = read_pack(a.pack);
   // So that the page does not depend on where the pack lies.
   const std::string folder = pack_name(a.pack);

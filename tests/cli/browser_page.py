@@ -12,6 +12,7 @@ WATCH = "<script>window.faults = []; addEventListener('error', (e) => faults.pus
 SCRIPT = """<script>
 tilepackView.started.then(async () => {
   const { state, gl, draw, placeAt } = tilepackView, canvas = gl.canvas, out = { pictures: {} };
+  if (gl.getError()) faults.push('an error of WebGL while the page opened');
   canvas.style.width = canvas.style.height = 'SIDEpx';
   const picture = (name, changes) => {
     Object.assign(state, changes);
@@ -23,6 +24,7 @@ tilepackView.started.then(async () => {
     out.pictures[name] = btoa(text);
   };
   BODY
+  if (gl.getError()) faults.push('an error of WebGL');
   out.wide = document.documentElement.scrollWidth > innerWidth;
   out.faults = faults;
   document.body.textContent = 'RESULT' + JSON.stringify(out) + 'END';

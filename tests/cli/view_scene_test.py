@@ -12,11 +12,14 @@ from png_image import read_png, write_png
 SIDE = 96
 TIME = 37.5
 ZONE = 768  # texels of a zone: the scene has 4 x 4, each of which shows another block
+MAPS = [{"name": "color", "role": "color", "channels": 4}, {"name": "normal", "role": "normal", "channels": 3},
+        {"name": "height", "role": "height", "channels": 1}, {"name": "rise", "role": "height", "channels": 1}]
 BODY = """
   const [unit] = pack.tile;
   for (const [x, y, zoom] of PLACES) for (const filter of ['nearest', 'texture'])
     picture(`${x},${y},${zoom},${filter}`, { x: x / unit, y: y / unit, zoom, filter, lit: 0, fly: 0, tint: 'none', time: TIME });
-  for (const map of choices.map) picture(map, { map, filter: 'texture' });
+  for (const map of choices.map) for (const [x, y] of MAP_PLACES) for (const filter of ['nearest', 'texture'])
+    picture(`${map},${x},${y},1,${filter}`, { x: x / unit, y: y / unit, zoom: 1, filter, map });
   picture('flight', { map: choices.map[0], fly: 1, lit: 1, height: 4, pitch: 30 });
   out.sample = pack.scene.moves;
 """
@@ -42,16 +45,17 @@ class ViewSceneTest(CommandCase):
         return name
 
     def scene(self):
-        """A scene with all blocks. Grids of 48 cells in 192 units, and areas of 12 and 4: not all powers of two."""
+        """A scene with all blocks; pictures have the first map alone, one pack all, the other no `height`. Grids of 48 cells in 192 units, and areas of 12 and 4: not all powers of two."""
         stones = [self.picture(f"stone_{i}.png", (90, 90, 100 + 30 * i), i) for i in range(4)]
         sand = [self.picture(f"sand_{i}.png", (190, 160, 110), 10 + i) for i in range(4)]
         leaves = [self.picture(f"leaf_{i}.png", (60 + 60 * i, 140, 40), 20 + i, 4) for i in range(3)]
         shore = [self.picture(f"shore_{i}.png", (120, 60 + 8 * i, 160), 30 + i) for i in range(16)]
         rim = [self.picture(f"rim_{i}.png", (220, 40 + 9 * i, 80), 50 + i, 4) for i in range(16)]
-        self.picture("sample.png", (120, 130, 70), 3, side=96)
-        self.run_tilepack("bake", "sample.png", "-o", "a.pack", "--tile-size", "16", "--effort", "0", "-q")
-        self.run_tilepack("bake", "sample.png", "-o", "b.pack", "--tile-size", "16", "--effort", "0", "-q", "--mapping", "index", "--virtual-size", "64x64",
-                          "--layout", "array", "--border", "1")
+        for name, base in (("sample", (120, 130, 70)), ("normal", (128, 128, 220)), ("height", (120,)), ("rise", (140,))):
+            self.picture(name + ".png", base, len(name), len(base), side=96)
+        bake = ["--map", "normal=normal.png", "--map", "rise:height=rise.png", "--tile-size", "16", "--effort", "0", "-q"]
+        self.run_tilepack("bake", "sample.png", "-o", "a.pack", "--map", "height=height.png", *bake)
+        self.run_tilepack("bake", "sample.png", "-o", "b.pack", *bake, "--mapping", "index", "--virtual-size", "64x64", "--layout", "array", "--border", "1")
         zones = [[4 * y + x for x in range(4)] for y in range(4)]
         areas = [[(3 * x + 5 * y + x * y) % 3 for x in range(12)] for y in range(12)]
         two = [[(x * x + y) % 2 for x in range(12)] for y in range(12)]
@@ -87,7 +91,9 @@ class ViewSceneTest(CommandCase):
             "first-pack": {"block": "pack", "file": "a.pack"}, "second-pack": {"block": "pack", "file": "b.pack", "scale": 2},
             "shore": {"block": "transition-tiles", "grid": "coarse", "material": "two", "textures": ["stones", "told-sand"], "patterns": shore},
             "rim": {"block": "border-tiles", "grid": "coarse", "material": "two", "patterns": rim, "inside": "told-sand", "below": "first-pack"},
-            "blend": {"block": "height-blend", "areas": "areas", "textures": ["stones", "first-pack", "told-sand"], "width": 40},
+            "high": {"block": "height-blend", "areas": "areas", "textures": ["stones", "first-pack", "told-sand"], "width": 40, "height": "height"},
+            "risen": {"block": "height-blend", "areas": "areas", "textures": ["second-pack", "first-pack", "told-sand"], "width": 40, "height": "rise"},
+            "which": {"block": "areas-map", "map": [[y // 8] for y in range(12)]}, "blend": {"block": "select", "index": "which", "textures": ["high", "risen"]},
             "now": {"block": "time"}, "hundred": {"block": "arithmetic", "operation": "multiply", "a": "now", "b": 3},
             "moved": {"block": "moved", "texture": "first-pack", "x": "hundred", "y": 5},
             "rest": {"block": "number-map", "map": [[2, 9, 5], [7, 3, 8], [4, 6, 1]], "smooth": True, "scale": 3},
@@ -108,25 +114,28 @@ class ViewSceneTest(CommandCase):
             "moved-part": {"block": "select", "index": "corner", "textures": ["nothing", "moved"]},
             "nothing": {"block": "color", "value": [0, 0, 0, 0]},
         }
-        self.write_json("scene.json", {"format": "tilepack-scene", "version": 1, "size": [4 * ZONE, 4 * ZONE], "nodes": nodes, "output": "shown"})
+        self.write_json("scene.json", {"format": "tilepack-scene", "version": 1, "size": [4 * ZONE, 4 * ZONE], "maps": MAPS, "nodes": nodes, "output": "shown"})
 
-    def differences(self, picture, window):
-        """The largest difference of each pixel from what compose draws."""
+    def differences(self, picture, window, name="color"):
+        """The largest difference of each pixel of a map from what compose draws."""
         x, y, zoom, kind = window
         left, top, side = round(x - SIDE / 2 / zoom), round(y - SIDE / 2 / zoom), round(SIDE / zoom)
         self.run_tilepack("compose", "scene.json", "-o", "window.png", f"--rect={left},{top},{side},{side}", "--scale", zoom, "--time", TIME, "-q", "--filter",
-                          "nearest" if kind == "nearest" else "trilinear")
+                          "nearest" if kind == "nearest" else "trilinear", "--map", name, "--encoding", "srgb")
         rows, channels, _ = read_png(self.path("window.png"))
         pixels = base64.b64decode(picture)
-        return [max(abs(pixels[4 * (SIDE * j + i) + c] - rows[j][channels * i + c]) for c in range(3)) for j in range(SIDE) for i in range(SIDE)]
+        return [max(abs(pixels[4 * (SIDE * j + i) + c] - rows[j][channels * i + (c if channels > 2 else 0)]) for c in range(3))
+                for j in range(SIDE) for i in range(SIDE)]
 
     @unittest.skipUnless(CHROMIUM, "not run: no chromium")
     def test_a_browser_evaluates_what_compose_draws(self):
         self.scene()
         places = [(ZONE * (i % 4) + 384, ZONE * (i // 4) + 384, 1) for i in range(16)]
+        places += [(2816, 1920, 1), (2560, 2176, 1)]  # where a blend has a border of materials
         places += [(230, 2650, 0.5), (300, 200, 1), (0, 0, 0.5), (1536, 1536, 0.25), (1536, 1536, 1 / 32), (1536, 1536, 1 / 128)]
+        map_places = [(x, y) for x, y, zoom in places if zoom == 1]
         self.run_tilepack("view", "scene.json", "-o", "page.html", "--time", TIME)
-        found = found_in_page(self, "page.html", SIDE, BODY.replace("PLACES", json.dumps(places)).replace("TIME", str(TIME)))
+        found = found_in_page(self, "page.html", SIDE, BODY.replace("MAP_PLACES", json.dumps(map_places)).replace("PLACES", json.dumps(places)).replace("TIME", str(TIME)))
         for x, y, zoom in places:
             for kind in ("nearest", "texture"):
                 with self.subTest(f"{x},{y} at {zoom}, {kind}"):
@@ -139,6 +148,15 @@ class ViewSceneTest(CommandCase):
                         self.assertLessEqual(off[int(0.999 * len(off))], 4)
                     else:  # means over many cells, and the overview
                         self.assertLess(sum(off) / len(off), 4)
+        for name in [m["name"] for m in MAPS[1:]]:
+            for x, y in map_places:
+                for kind in ("nearest", "texture"):
+                    with self.subTest(f"{name} at {x},{y}, {kind}"):
+                        off = sorted(self.differences(found["pictures"][f"{name},{x},{y},1,{kind}"], (x, y, 1, kind), name))
+                        if kind == "nearest":
+                            self.assertLess(sum(d > 2 for d in off), 0.01 * len(off))
+                        else:
+                            self.assertLessEqual(off[int(0.999 * len(off))], 4)
         self.assertTrue(found["sample"])
         self.assertFalse(found["wide"])
 
@@ -171,7 +189,11 @@ class ViewSceneTest(CommandCase):
         self.refused("view", "none.json", "-o", "a.html", code=3, saying="nothing")
         self.write_json("p.json", {**scene, "nodes": {"look": {"block": "color", "value": [1, 0, 0]}}})
         self.refused("view", "p.json", "-o", "p.txt", code=1, saying=".html")
-        self.refused("view", "leaf.png", "-o", "p.html", "--time", "1", code=1, saying="--time")
+        self.refused("view", "leaf.png", "-o", "p.html", "--time", "1", code=3, saying="leaf.png")
+        self.refused("view", "leef.pack", "-o", "p.html", "--time", "1", code=2, saying="leef.pack")
+        self.picture("sample.png", (120, 130, 70), 3, side=96)
+        self.run_tilepack("bake", "sample.png", "-o", "a.pack", "--tile-size", "16", "--effort", "0", "-q")
+        self.refused("view", "a.pack", "-o", "p.html", "--time", "1", code=1, saying=["--time", "a.pack is a pack", "leave it out"])
 
 
 if __name__ == "__main__":

@@ -77,7 +77,7 @@ class ViewTest(ShaderCase):
 
     @unittest.skipUnless(CHROMIUM, "not run: no chromium")
     def test_a_browser_shows_what_render_writes(self):
-        for kind, exact in (("even", True), ("corners", True), ("array", True), ("rotated", False)):
+        for kind, exact in (("even", True), ("corners", True), ("array", True), ("index", True), ("rotated", False)):
             with self.subTest(kind):
                 pack = self.bake(kind)
                 found = self.in_browser(pack, exact)

@@ -1,8 +1,8 @@
 #include "tilepack/report/scene_view_page.h"
 
+#include "tilepack/batch/content_hash.h"
 #include "tilepack/error/error.h"
 #include "tilepack/json/json_value.h"
-#include "tilepack/numeric/random.h"
 #include "tilepack/pattern/pattern_texture.h"
 #include "tilepack/scene/scene_graph.h"
 #include "tilepack/scene/scene_texture.h"
@@ -13,7 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <tuple>
 
 namespace tilepack {
 namespace {
@@ -40,16 +42,19 @@ struct PageTexels {
   }
 };
 
-std::string level_json(Size size, const std::vector<unsigned char>& bytes) {
-  return fmt::format("{{\"width\": {}, \"height\": {}, \"data\": \"{}\"}}", size.width, size.height,
-                     view_page_bytes(bytes));
+GraphProgram program_of(const SceneFile& scene, const PatternGraph& graph) {
+  try {
+    return graph_program(graph);
+  } catch (const Error& error) {
+    throw scene_error(scene, error);
+  }
 }
 
 class ScenePage {
 public:
   ScenePage(const SceneFile& of_scene, SceneFiles& files, double at_time)
       : scene(of_scene), time(at_time), made(scene_graph(of_scene, files, at_time)),
-        program(graph_program(made.graph)) {}
+        program(program_of(of_scene, made.graph)) {}
 
   SceneViewPage page(ViewPageSettings settings) {
     check_texture_counts();
@@ -64,9 +69,7 @@ public:
                         : "null",
         maps_json());
     data += "\"scene\": {" + scene_json() + "}}";
-    std::uint64_t hash = 0;
-    for (const char c : data) hash = mixed(hash ^ static_cast<unsigned char>(c)) + 1;
-    settings.content = hash;
+    settings.content = hash_of(data).low;
     SceneViewPage result;
     result.text = page_with(settings, "scene", std::move(data), view_scene_script());
     result.cells_a_texel = cells_a_texel();
@@ -75,6 +78,10 @@ public:
 
 private:
   Size unit() const { return made.graph.unit; }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Error(ErrorKind::invalid_content, scene.file, what);
+  }
 
   void check_texture_counts() const {
     for (std::size_t m = 0; m < program.maps.size(); ++m) {
@@ -86,12 +93,9 @@ private:
       std::sort(all.begin(), all.end());
       const auto count = static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin()) + 2;
       if (count > most_textures)
-        throw Error(
-            ErrorKind::invalid_content, scene.file,
-            fmt::format(
-                "its map \"{}\" is made from {} textures, and a page reads {} at once; use fewer packs "
-                "and sets of patterns, or draw pictures by `compose`",
-                made.graph.maps[m].name, count, most_textures));
+        refuse(fmt::format("its map \"{}\" is made from {} textures, and a page reads {} at once; use fewer "
+                           "packs and sets of patterns, or draw pictures by `compose`",
+                           made.graph.maps[m].name, count, most_textures));
     }
   }
 
@@ -143,35 +147,38 @@ private:
     return text + ".";
   }
 
-  // Of a sampler, all levels.
-  std::string sampler_json(const GraphSampler& sampler) {
+  // A map of a source as it is stored, with its index map and corner pack: kept for the samplers of these.
+  const Pack& stored_pack(const GraphSampler& sampler) {
     const auto use = sampler.kind == GraphSampler::Kind::patterns ? PatternSource::Use::patterns
                                                                   : PatternSource::Use::wang;
-    const Pack pack = sampler.source->stored_pack(sampler.map, use);
+    const std::tuple asked(sampler.source.get(), sampler.map, use);
+    if (last_stored != asked) last_pack = sampler.source->stored_pack(sampler.map, use);
+    last_stored = asked;
+    return last_pack;
+  }
+
+  // Of a sampler, all levels.
+  std::string sampler_json(const GraphSampler& sampler) {
+    const Pack& pack = stored_pack(sampler);
     const std::string head = fmt::format("{{\"name\": \"{}\", \"array\": {}, \"layers\": {}, ", sampler.name,
                                          sampler.is_array, sampler.is_array ? pack.layout.rows : 0);
     if (sampler.kind == GraphSampler::Kind::ids) {
-      std::vector<unsigned char> bytes;
-      for (const int id : pack.mapping.ids) {
-        bytes.push_back(static_cast<unsigned char>(id & 255));
-        bytes.push_back(static_cast<unsigned char>(id >> 8));
-      }
-      count(bytes.size());
+      count(2 * pack.mapping.ids.size());
       return head + fmt::format("\"ids\": true, \"width\": {}, \"height\": {}, \"data\": \"{}\"}}",
-                                pack.mapping.size.width, pack.mapping.size.height, view_page_bytes(bytes));
+                                pack.mapping.size.width, pack.mapping.size.height,
+                                view_page_ids(pack.mapping));
     }
     const PackedMap& map =
         sampler.kind == GraphSampler::Kind::corners ? pack.corner_pack->maps[0] : pack.maps[0];
     std::string levels;
-    PageTexels texels{
-        map.role == Role::color || map.encoding == Encoding::srgb, has_alpha(map.role, map.channels), {}};
+    PageTexels texels{is_light(map), has_alpha(map.role, map.channels), {}};
     for (const Image& stored : map.levels) {
       const Image level = to_linear(stored, map.encoding);
       texels.bytes.clear();
       for (int y = 0; y < level.height(); ++y)
         for (int x = 0; x < level.width(); ++x) texels.add(level.texel(x, y));
       count(texels.bytes.size());
-      levels += (levels.empty() ? "" : ",\n") + level_json(level.size(), texels.bytes);
+      levels += (levels.empty() ? "" : ",\n") + view_page_level(level.size(), texels.bytes);
     }
     return head + fmt::format("\"channels\": {}, \"srgb\": {}, \"levels\": [{}]}}", texels.alpha ? 4 : 3,
                               texels.light, levels);
@@ -180,12 +187,10 @@ private:
   void count(std::size_t more) {
     bytes_so_far += more;
     if (bytes_so_far > most_page_bytes)
-      throw Error(
-          ErrorKind::invalid_content, scene.file,
-          fmt::format(
-              "more than {} MiB of texels, which is the most that a page holds; use smaller packs, or "
-              "draw pictures by `compose`",
-              most_page_bytes >> 20));
+      refuse(
+          fmt::format("more than {} MiB of texels, which is the most that a page holds; use smaller packs, "
+                      "or draw pictures by `compose`",
+                      most_page_bytes >> 20));
   }
 
   Size overview() const {
@@ -211,17 +216,16 @@ private:
     Image picture(size.width, size.height, texture.channels());
     const double step_u = static_cast<double>(made.graph.scene.width) / size.width;
     const double step_v = static_cast<double>(made.graph.scene.height) / size.height;
-    const auto place = [](double units) {
-      return TileCoordinate{static_cast<std::int64_t>(units), units - std::floor(units)};
-    };
     tbb::parallel_for(0, size.height, [&](int y) {
       std::vector<std::vector<float>> values(channels,
                                              std::vector<float>(static_cast<std::size_t>(size.width)));
       std::vector<float*> to;
       for (std::vector<float>& channel : values) to.push_back(channel.data());
-      texture.sample_run(
-          {{place(0.5 * step_u), place((y + 0.5) * step_v)}, step_u, 0, static_cast<std::size_t>(size.width)},
-          {step_u, 0, 0, step_v}, to);
+      texture.sample_run({{normalised({0, 0.5 * step_u}), normalised({0, (y + 0.5) * step_v})},
+                          step_u,
+                          0,
+                          static_cast<std::size_t>(size.width)},
+                         {step_u, 0, 0, step_v}, to);
       for (int x = 0; x < size.width; ++x)
         for (std::size_t c = 0; c < channels; ++c)
           picture.texel(x, y)[c] = values[c][static_cast<std::size_t>(x)];
@@ -235,7 +239,7 @@ private:
         texels.add(texel);
       }
     return fmt::format("{{\"channels\": 4, \"srgb\": {}, \"levels\": [{}]}}", texels.light,
-                       level_json(size, texels.bytes));
+                       view_page_level(size, texels.bytes));
   }
 
   std::string words_data() {
@@ -262,15 +266,15 @@ private:
         program.moves = true;
         std::string path;
         for (const auto& [x, y] : s.path) path += fmt::format("{}[{}, {}]", path.empty() ? "" : ", ", x, y);
-        moving += fmt::format("{}{{\"place\": {}, \"path\": [{}], \"period\": {}, \"start\": {}, \"rotate\": "
+        moving += fmt::format("{}{{\"word\": {}, \"path\": [{}], \"period\": {}, \"start\": {}, \"rotate\": "
                               "{}, \"follows\": {}}}",
-                              moving.empty() ? "" : ",\n", i, path, s.period, s.start, s.rotate, s.follows);
+                              moving.empty() ? "" : ",\n", set.first + words_of_sprite * i, path, s.period,
+                              s.start, s.rotate, s.follows);
       }
       const auto* block =
           std::get_if<SpritesTexture>(&made.graph.nodes[static_cast<std::size_t>(set.node)].block);
-      text +=
-          fmt::format("{}{{\"first\": {}, \"cells\": [{}, {}], \"moving\": [{}]}}", text.empty() ? "" : ", ",
-                      set.first, block->sprites->grid().width, block->sprites->grid().height, moving);
+      text += fmt::format("{}{{\"cells\": [{}, {}], \"moving\": [{}]}}", text.empty() ? "" : ", ",
+                          block->sprites->grid().width, block->sprites->grid().height, moving);
     }
     return text;
   }
@@ -290,6 +294,8 @@ private:
   SceneGraph made;
   GraphProgram program;
   std::size_t bytes_so_far = 0;
+  std::optional<std::tuple<const PatternSource*, int, PatternSource::Use>> last_stored;
+  Pack last_pack;
 };
 
 } // namespace

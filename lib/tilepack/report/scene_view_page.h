@@ -11,7 +11,7 @@ namespace tilepack {
 /// A page that stands alone and shows a scene by WebGL 2: its blocks are evaluated where they are looked at
 /// (graph_program()), so it goes on as far as the scene does, and its animations play. Pixels that cover several
 /// cells are the mean of up to 16 places; farther off they fade into an overview of the whole scene, which is drawn
-/// beforehand (SceneOverview), at the time `time`.
+/// beforehand, at the time `time`.
 struct SceneViewPage {
   std::string text;
   double cells_a_texel =

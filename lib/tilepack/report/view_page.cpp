@@ -19,7 +19,6 @@
 namespace tilepack {
 namespace {
 
-// "</" may not stand in a script: it would end it.
 void fill_in(std::string& page, std::string_view place, std::string_view text) {
   for (std::size_t at = page.find(place); at != std::string::npos; at = page.find(place, at + text.size()))
     page.replace(at, place.size(), text);
@@ -40,11 +39,6 @@ std::string base64(const std::vector<unsigned char>& bytes) {
   return text;
 }
 
-// Light is stored by the sRGB curve, on which 8 bits suffice; all else as it is.
-bool is_light(const PackedMap& map) {
-  return map.role == Role::color || map.encoding == Encoding::srgb;
-}
-
 std::string levels_json(const PackedMap& map) {
   std::string text;
   for (std::size_t l = 0; l < map.levels.size() + map.far_levels.size(); ++l) {
@@ -54,8 +48,7 @@ std::string levels_json(const PackedMap& map) {
     std::vector<unsigned char> bytes;
     for (int y = 0; y < shown.height(); ++y)
       for (const float value : shown.row(y)) bytes.push_back(static_cast<unsigned char>(code_of(value, 255)));
-    text += fmt::format("{}{{\"width\": {}, \"height\": {}, \"data\": \"{}\"}}", text.empty() ? "" : ",\n",
-                        shown.width(), shown.height(), view_page_bytes(bytes));
+    text += (text.empty() ? "" : ",\n") + view_page_level(shown.size(), bytes);
   }
   return text;
 }
@@ -138,16 +131,6 @@ std::string mappings_json(const Pack& pack, const ViewPageSettings& settings) {
   return "[" + text + "]";
 }
 
-std::string ids_json(const Mapping& mapping) {
-  if (mapping.kind != MappingKind::index) return "null";
-  std::vector<unsigned char> bytes;
-  for (const int id : mapping.ids) {
-    bytes.push_back(static_cast<unsigned char>(id & 255));
-    bytes.push_back(static_cast<unsigned char>(id >> 8));
-  }
-  return fmt::format("\"{}\"", view_page_bytes(bytes));
-}
-
 void check_size(const Pack& pack) {
   std::size_t bytes = pack.mapping.ids.size() * 2;
   const auto count = [&](const std::vector<PackedMap>& maps) {
@@ -175,9 +158,23 @@ std::string view_page_bytes(const std::vector<unsigned char>& bytes) {
   return base64(packed);
 }
 
+std::string view_page_level(Size size, const std::vector<unsigned char>& bytes) {
+  return fmt::format("{{\"width\": {}, \"height\": {}, \"data\": \"{}\"}}", size.width, size.height,
+                     view_page_bytes(bytes));
+}
+
+std::string view_page_ids(const Mapping& mapping) {
+  std::vector<unsigned char> bytes;
+  for (const int id : mapping.ids) {
+    bytes.push_back(static_cast<unsigned char>(id & 255));
+    bytes.push_back(static_cast<unsigned char>(id >> 8));
+  }
+  return view_page_bytes(bytes);
+}
+
 std::string page_with(const ViewPageSettings& settings, std::string_view kind, std::string data,
                       std::string_view script) {
-  fill_in(data, "</", "<\\/");
+  fill_in(data, "</", "<\\/"); // it would end the script that the data stand in
   std::string page(view_page_template());
   fill_in(page, "{{SCENE}}", script.empty() ? "" : fmt::format("<script>\n{}</script>\n", script));
   fill_in(page, "{{TITLE}}", escaped(settings.title));
@@ -198,7 +195,10 @@ std::string view_page(const Pack& pack, const ViewPageSettings& settings) {
                   pack.layout.kind != LayoutKind::rotated);
   data += "\"mappings\": " + mappings_json(pack, settings) + ",\n\"maps\": " + maps_json(pack.maps);
   data += ",\n\"corners\": " + (pack.corner_pack ? maps_json(pack.corner_pack->maps) : "null");
-  data += ",\n\"ids\": " + ids_json(pack.mapping) + "}";
+  data += ",\n\"ids\": " +
+          (pack.mapping.kind == MappingKind::index ? fmt::format("\"{}\"", view_page_ids(pack.mapping))
+                                                   : "null") +
+          "}";
   return page_with(settings, "pack", data, {});
 }
 

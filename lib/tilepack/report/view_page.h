@@ -30,8 +30,15 @@ std::string view_page(const Pack& pack, const ViewPageSettings& settings);
 std::string page_with(const ViewPageSettings& settings, std::string_view kind, std::string data,
                       std::string_view script);
 
-/// Bytes as the page unpacks them: deflated, in base 64.
+/// Bytes as the page unpacks them: deflated, in base 64. A level of a texture, as JSON; and an index map's words of 16 bits.
 std::string view_page_bytes(const std::vector<unsigned char>& bytes);
+std::string view_page_level(Size size, const std::vector<unsigned char>& bytes);
+std::string view_page_ids(const Mapping& mapping);
+
+/// Light is stored by the sRGB curve, on which 8 bits suffice; all else as it is.
+inline bool is_light(const PackedMap& map) {
+  return map.role == Role::color || map.encoding == Encoding::srgb;
+}
 
 /// The most bytes that a page holds unpacked.
 inline constexpr std::size_t most_page_bytes = std::size_t{192} << 20;

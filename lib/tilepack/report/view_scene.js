@@ -82,7 +82,7 @@ function bindScene(want, at, bind) {
 async function openScene() {
   const { scene } = pack;
   const open = async (s) => {
-    if (s.ids) return whole(gl.R16UI, gl.RED_INTEGER, gl.UNSIGNED_SHORT, s.width, s.height, new Uint16Array((await bytes(s.data)).buffer));
+    if (s.ids) return idsTexture(s.data, s.width, s.height);
     return texture(s, s.array ? gl.TEXTURE_2D_ARRAY : gl.TEXTURE_2D, s.layers);
   };
   [sceneTextures, overviews] = [await Promise.all(scene.samplers.map(open)), await Promise.all(scene.overviews.map((o) => texture(o, gl.TEXTURE_2D)))];
@@ -94,15 +94,6 @@ async function openScene() {
   words = new Int32Array((await bytes(scene.words)).buffer);
   wordsTexture = whole(gl.R32I, gl.RED_INTEGER, gl.INT, 2048, words.length / 2048, words);
 }
-// A texture of whole numbers.
-function whole(internal, format, type, width, height, data) {
-  const name = gl.createTexture();
-  gl.bindTexture(gl.TEXTURE_2D, name);
-  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
-  gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
-  for (const what of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, what, gl.NEAREST);
-  return name;
-}
 
 // Sprites on paths as they lie now: closed curves through their points (Catmull-Rom), each stretch of which takes the same time.
 let movedAt = null;
@@ -111,7 +102,7 @@ function moveSprites() {
   if (!scene.sprites.some((set) => set.moving.length) || movedAt === state.time) return;
   movedAt = state.time;
   const bits = new Float32Array(words.buffer);
-  for (const { first, cells, moving } of scene.sprites) for (const s of moving) {
+  for (const { cells, moving } of scene.sprites) for (const s of moving) {
     const count = s.path.length, rounds = s.start + state.time / s.period, at = (rounds - Math.floor(rounds)) * count;
     const stretch = Math.floor(at) % count, t = at - Math.floor(at);
     const along = (axis) => {
@@ -120,7 +111,7 @@ function moveSprites() {
       return [0.5 * (p + t * (q + t * (r + t * u))), 0.5 * (q + t * (2 * r + t * 3 * u))];
     };
     const [[x, slopeX], [y, slopeY]] = [along(0), along(1)];
-    const angle = 2 * Math.PI * s.rotate + (s.follows ? Math.atan2(slopeY, slopeX) : 0), w = first + 8 * s.place;
+    const angle = 2 * Math.PI * s.rotate + (s.follows ? Math.atan2(slopeY, slopeX) : 0), w = s.word;
     words[w] = ((Math.floor(x) % cells[0]) + cells[0]) % cells[0];
     words[w + 1] = ((Math.floor(y) % cells[1]) + cells[1]) % cells[1];
     bits[w + 3] = x - Math.floor(x);

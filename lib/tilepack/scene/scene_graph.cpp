@@ -81,6 +81,10 @@ SceneGraph scene_graph(const SceneFile& scene, SceneFiles& files, double time) {
   return made;
 }
 
+Error scene_error(const SceneFile& scene, const Error& error) {
+  return error_of(problem_of(scene, error), scene.file);
+}
+
 std::vector<SceneProblem> scene_graph_problems(const SceneFile& scene, SceneFiles& files) {
   SceneBuilder builder(scene, files, 0);
   std::vector<SceneProblem> problems = build(scene, builder, true);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tilepack/error/error.h"
 #include "tilepack/scene/scene_builder.h"
 #include "tilepack/scene/scene_file.h"
 #include "tilepack/scene/scene_files.h"
@@ -18,5 +19,8 @@ SceneGraph scene_graph(const SceneFile& scene, SceneFiles& files, double time = 
 /// The same for who wants all that is wrong: a problem a node at most, and none of nodes that are made from one with a
 /// problem. `scene` has no problems of scene_reading() but nodes that are unused.
 std::vector<SceneProblem> scene_graph_problems(const SceneFile& scene, SceneFiles& files);
+
+/// An error of a graph, which names a node, or of a file of the scene as those of scene_graph() are: file, line, node.
+Error scene_error(const SceneFile& scene, const Error& error);
 
 } // namespace tilepack

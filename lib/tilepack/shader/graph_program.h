@@ -38,8 +38,8 @@ struct GraphSprites {
   std::size_t first = 0;    ///< the first word of the first sprite
   std::vector<int> numbers; ///< of its SpriteMap, in the order of the words
 };
-inline constexpr std::size_t words_of_sprite =
-    8; ///< cell x, y, pattern; bits of floats: x, y within it, scale, cosine, sine
+/// Cell x, y, pattern; bits of floats: x, y within the cell, scale, cosine, sine.
+inline constexpr std::size_t words_of_sprite = 8;
 
 /// A pattern graph as functions of GLSL ES 3.00, evaluated where they are asked:
 ///
@@ -50,8 +50,9 @@ inline constexpr std::size_t words_of_sprite =
 ///   Place place_at(uvec2 from, vec2 p)        p units from the unit `from`, round the scene
 ///
 /// Indices and random numbers are those of PatternValues, cell by cell; numbers are floats, so that a place within a few
-/// 2^-24 of where an index changes may have the other one. Patterns and packs are read as FastSampler does, by the
-/// texture units. No place is filtered beyond the tiles that lie there: who draws pixels of several cells asks several times.
+/// 2^-24 (of a unit, and of how far place_at() goes) of where an index changes may have the other one. Patterns and packs
+/// are read as FastSampler does, by the texture units. No place is filtered beyond the tiles that lie there: who draws
+/// pixels of several cells asks several times.
 ///
 /// Uniforms, beside the samplers: `isampler2D tables`, of rows of 2048 words; `float now`, the time in steps; `int filter_mode`, 2 for nearest texels; `float aniso`, the anisotropy of samplers.
 struct GraphProgram {

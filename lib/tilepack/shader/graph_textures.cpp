@@ -1,4 +1,5 @@
 #include "tilepack/error/error.h"
+#include "tilepack/pattern/placed_patterns.h"
 #include "tilepack/shader/graph_writer.h"
 #include "tilepack/shader/shader_text.h"
 
@@ -78,6 +79,27 @@ std::string GraphWriter::pattern_reader(NodeId node, const std::shared_ptr<const
   return name;
 }
 
+// Reads the pack once, and writes its lookup.
+const GraphWriter::WangFacts& GraphWriter::wang_facts(NodeId node, const PatternSource& source, int number) {
+  const auto found = wangs.find(number);
+  if (found != wangs.end()) return found->second;
+  WangFacts known;
+  while (source.facts().map_of[static_cast<std::size_t>(known.any)] < 0) ++known.any;
+  const Pack pack = source.stored_pack(known.any, PatternSource::Use::wang);
+  known.layers = pack.layout.kind == LayoutKind::array;
+  known.ids = pack.mapping.kind == MappingKind::index;
+  known.corners = pack.corner_pack.has_value();
+  try {
+    ShaderSettings settings;
+    settings.name = fmt::format("wang{}", number);
+    settings.has_head = false;
+    program.common += shader_text(pack, settings, {}, 0);
+  } catch (const Error& error) {
+    refuse(node, fmt::format("{}: {}", source.facts().name, error.what_happened()));
+  }
+  return wangs.emplace(number, known).first->second;
+}
+
 // wang_SOURCE_MAP(c, f, d): the place f of cell c of a pack's virtual texture.
 std::string GraphWriter::wang_reader(NodeId node, const WangTexture& block, int map) {
   const PackFacts& facts = block.source->facts();
@@ -85,32 +107,17 @@ std::string GraphWriter::wang_reader(NodeId node, const WangTexture& block, int 
   const std::string name = fmt::format("wang_{}_{}", number, map), prefix = fmt::format("wang{}", number);
   if (std::find(readers.begin(), readers.end(), name) != readers.end()) return name;
   readers.push_back(name);
-  int any = 0;
-  while (facts.map_of[static_cast<std::size_t>(any)] < 0) ++any;
-  const Pack pack = block.source->stored_pack(any, PatternSource::Use::wang, facts.levels - 1);
-  if (std::find(wang_texts.begin(), wang_texts.end(), prefix) == wang_texts.end()) {
-    wang_texts.push_back(prefix);
-    // The words of the lookup are those of the whole pack.
-    Pack whole = block.source->stored_pack(any, PatternSource::Use::wang);
-    whole.maps[0].levels.clear();
-    try {
-      ShaderSettings settings;
-      settings.name = prefix;
-      program.common += shader_text(whole, settings, "tilepack view", 0);
-    } catch (const Error& error) {
-      refuse(node, fmt::format("{}: {}", facts.name, error.what_happened()));
-    }
-  }
-  const bool layers = pack.layout.kind == LayoutKind::array, ids = pack.mapping.kind == MappingKind::index;
+  const WangFacts& known = wang_facts(node, *block.source, number);
   const std::string place = "c.x, c.y, f.x, f.y";
   const auto name_of_sampler = [&](GraphSampler::Kind kind, int of_map, bool is_array) {
     return program.samplers[static_cast<std::size_t>(sampler(kind, block.source, of_map, is_array))].name;
   };
   const auto read = [&](int of_map) {
-    const std::string tiles = name_of_sampler(GraphSampler::Kind::tiles, of_map, layers);
-    const std::string index = ids ? name_of_sampler(GraphSampler::Kind::ids, any, false) + ", " : "";
+    const std::string tiles = name_of_sampler(GraphSampler::Kind::tiles, of_map, known.layers);
+    const std::string index =
+        known.ids ? name_of_sampler(GraphSampler::Kind::ids, known.any, false) + ", " : "";
     const std::string corners =
-        pack.corner_pack ? name_of_sampler(GraphSampler::Kind::corners, of_map, false) + ", " : "";
+        known.corners ? name_of_sampler(GraphSampler::Kind::corners, of_map, false) + ", " : "";
     return fmt::format(
         "(filter_mode == 2 ? {0}_nearest({1}, {2}{3}, int(clamp(floor({0}_level_of(d.x, d.y, d.z, d.w) "
         "+ 0.5), 0.0, {4}.0))) : {0}_grad({1}, {5}{2}{3}, d.x, d.y, d.z, d.w))",
@@ -221,8 +228,8 @@ struct TextureText {
     if (!stays) {
       // By the largest scale: half the diagonal, and half a texel of margin where a tile is one texel.
       const double largest = writer.values.same_everywhere(b.scale)
-                                 ? std::clamp(writer.values.number_or(b.scale, {}, 1), 0.0, 1.4)
-                                 : 1.4;
+                                 ? std::clamp(writer.values.number_or(b.scale, {}, 1), 0.0, largest_scale)
+                                 : largest_scale;
       reach = largest > 0.94 ? 2 : 1;
     }
     return head() + in_cell(b.grid) +
@@ -269,6 +276,7 @@ struct TextureText {
             fmt::format("has {} sprites, of which a page shows {}; strew them by `tile-transform` instead",
                         numbers.size(), most_sprites_shown));
       std::vector<std::int32_t> words;
+      words.reserve(words_of_sprite * numbers.size());
       for (const int number : numbers) {
         const Sprite& s = b.sprites->sprite(number);
         words.insert(words.end(),
@@ -283,7 +291,7 @@ struct TextureText {
     return head() + in_cell(b.sprites->grid()) +
            GraphWriter::filled(R"(  vec4 sum = vec4(0.0);
   for (int n = 0; n < $NUMBER; ++n) {
-    int s = $FIRST + 8 * n;
+    int s = $FIRST + $WORDS * n;
     uvec2 cells = $COUNT, gone = moved(at.cell, -ivec2(entry(s), entry(s + 1)), cells);
     vec2 r = vec2(gone.x > cells.x / 2u ? -float(cells.x - gone.x) : float(gone.x), gone.y > cells.y / 2u ? -float(cells.y - gone.y) : float(gone.y));
     r += at.part - vec2(real_entry(s + 3), real_entry(s + 4));
@@ -300,6 +308,7 @@ struct TextureText {
 )",
                                {{"NUMBER", std::to_string(sprites->numbers.size())},
                                 {"FIRST", std::to_string(sprites->first)},
+                                {"WORDS", std::to_string(words_of_sprite)},
                                 {"COUNT", writer.cell_count(b.sprites->grid())},
                                 {"TEXELS", texels_of(*b.source)},
                                 {"LAST", fmt::format("{}.0", b.source->facts().levels - 1)},
@@ -312,21 +321,20 @@ struct TextureText {
                                 choice(b.textures, std::to_string(map)));
   }
 
-  std::string corners(NodeId material, PatternGrid grid, std::string_view use) const {
+  std::string corners(NodeId material, PatternGrid grid) const {
     return GraphWriter::filled(R"(  int m[4];
   for (int k = 0; k < 4; ++k) m[k] = index_$INDEX(centre_$GRID($MOVED));
 )",
                                {{"INDEX", std::to_string(material)},
                                 {"MOVED", writer.neighbour("at.cell", "ivec2(k & 1, k >> 1)", grid)},
-                                {"GRID", writer.grid(grid)}}) +
-           std::string(use);
+                                {"GRID", writer.grid(grid)}});
   }
 
   std::string operator()(const TransitionTexture& b) const {
     const std::string reader = writer.pattern_reader(node, b.source, map);
     const std::size_t m = b.textures.size(), per = static_cast<std::size_t>(b.colors_of_material),
                       colors = m * per;
-    std::string text = head() + in_cell(b.grid) + corners(b.material, b.grid, "");
+    std::string text = head() + in_cell(b.grid) + corners(b.material, b.grid);
     text += fmt::format("  for (int k = 0; k < 4; ++k) if (m[k] < 0 || m[k] >= {}) return vec4(0.0);\n", m);
     if (!b.plain_from_set)
       text += fmt::format("  if (m[0] == m[1] && m[0] == m[2] && m[0] == m[3]) switch (m[0]) {{\n{}  }}\n",
@@ -337,19 +345,20 @@ struct TextureText {
             ? "m[k]"
             : fmt::format("m[k] * {} + {}", per,
                           writer.hashed_index(writer.values.corner_hash(node),
-                                              writer.neighbour("at.cell", "ivec2(k & 1, k >> 1)", b.grid)));
+                                              writer.neighbour("at.cell", "ivec2(k & 1, k >> 1)", b.grid),
+                                              node));
     text += fmt::format("  for (int k = 0; k < 4; ++k) tile = tile * {} + {};\n", colors, color);
-    text += fmt::format("  tile += {} * {};\n", writer.hashed_index(writer.values.hash(node), "at.cell"),
-                        colors * colors * colors * colors);
+    text +=
+        fmt::format("  tile += {} * {};\n", writer.hashed_index(writer.values.hash(node), "at.cell", node),
+                    colors * colors * colors * colors);
     if (!b.tiles.empty())
-      text +=
-          fmt::format("  tile = entry({} + tile);\n", writer.table({b.tiles.begin(), b.tiles.end()}, node));
+      text += fmt::format("  tile = entry({} + tile);\n", writer.table_once(b.tiles, node));
     return text + fmt::format("  return tile < 0 ? vec4(0.0) : {}(at.part, tile, dc, -1.0);\n}}\n", reader);
   }
 
   std::string operator()(const BorderTexture& b) const {
     const std::string reader = writer.pattern_reader(node, b.source, map);
-    return head() + in_cell(b.grid) + corners(b.material, b.grid, "") +
+    return head() + in_cell(b.grid) + corners(b.material, b.grid) +
            GraphWriter::filled(R"(  int code = 0;
   for (int k = 0; k < 4; ++k) code = code * 2 + (m[k] == $FAMILY ? 1 : 0);
   if (code == 15) return $INSIDE;
@@ -361,7 +370,7 @@ struct TextureText {
                                 {"INSIDE", of(b.inside)},
                                 {"BELOW", of(b.below)},
                                 {"READ", reader},
-                                {"VARIANT", writer.hashed_index(writer.values.hash(node), "at.cell")}});
+                                {"VARIANT", writer.hashed_index(writer.values.hash(node), "at.cell", node)}});
   }
 
   std::string operator()(const HeightBlendTexture& b) const;
@@ -392,6 +401,9 @@ $CHOICE  }
 }
 )",
       {{"NODE", fmt::format("{}_{}", node, map)}, {"CHOICE", choice(b.textures, std::to_string(map))}});
+  // Texts of maps that go by each other's heights stand in any order.
+  if (b.height >= 0 && b.height != map)
+    text = fmt::format("vec4 material_{}_{}(int material, Place p, vec4 d);\n", node, b.height) + text;
   text += head() + in_cell(b.grid);
   text += GraphWriter::filled(
       R"(  ivec2 first; vec2 b;

@@ -38,7 +38,7 @@ struct ValueText {
   }
   std::string operator()(const RandomIndex& b) const {
     return index_head() + cell_in(b.grid) +
-           fmt::format("  return {};\n}}\n", writer.hashed_index(writer.values.hash(node), "c"));
+           fmt::format("  return {};\n}}\n", writer.hashed_index(writer.values.hash(node), "c", node));
   }
   std::string operator()(const TableIndex& b) const {
     return index_head() +
@@ -82,8 +82,8 @@ struct ValueText {
                 {"INDEX", fmt::format("index_{}", b.areas)},
                 {"MOVED", writer.neighbour("coarse", "first + ivec2(k & 1, k >> 1)", b.coarse)},
                 {"GRID", writer.grid(b.coarse)},
-                {"RANDOMX", writer.hashed_number(writer.values.hash(node), "c")},
-                {"RANDOMY", writer.hashed_number(writer.values.corner_hash(node), "c")}});
+                {"RANDOMX", writer.hashed_number(writer.values.hash(node), "c", node)},
+                {"RANDOMY", writer.hashed_number(writer.values.corner_hash(node), "c", node)}});
   }
   std::string operator()(const PixelIndex& b) const {
     std::vector<std::int32_t> squares;
@@ -138,7 +138,7 @@ struct ValueText {
     return number_head() + cell_in(b.grid) +
            fmt::format("  return {} + {} * {};\n}}\n", GraphWriter::real(b.low),
                        GraphWriter::real(b.high - b.low),
-                       writer.hashed_number(writer.values.hash(node), "c"));
+                       writer.hashed_number(writer.values.hash(node), "c", node));
   }
   std::string operator()(const StoredNumber& b) const {
     const std::string words = writer.stored_map(*b.map, false, node);

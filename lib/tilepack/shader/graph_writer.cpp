@@ -1,6 +1,7 @@
 #include "tilepack/shader/graph_writer.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/pattern/placed_patterns.h"
 
 #include <fmt/format.h>
 
@@ -111,7 +112,7 @@ vec4 over(vec4 top, vec4 below) { return top + (1.0 - top.a) * below; }
 // A pattern moved, turned and scaled: its middle in a cell, its sides, cosine and sine.
 struct Laid { vec2 middle; float scale; vec2 turn; };
 Laid laid(vec2 place, float scale, float turns, bool stays) {
-  Laid t = Laid(clamp(place, 0.0, 1.0), scale > 0.0 ? min(scale, stays ? 1.0 : 1.4) : 0.0, vec2(sine_of_turns(turns + 0.25), sine_of_turns(turns)));
+  Laid t = Laid(clamp(place, 0.0, 1.0), scale > 0.0 ? min(scale, stays ? 1.0 : $LARGEST) : 0.0, vec2(sine_of_turns(turns + 0.25), sine_of_turns(turns)));
   if (!stays) return t;
   float box = abs(t.turn.x) + abs(t.turn.y);
   t.scale = min(t.scale, 1.0 / box);
@@ -239,47 +240,46 @@ std::string GraphWriter::cells_a_unit(PatternGrid grid) const {
   return fmt::format("vec4({0}, {1}, {0}, {1})", x, y);
 }
 
-std::string GraphWriter::hashed_index(const CellHash& hash, std::string_view cell) {
+std::string GraphWriter::hashed_index(const CellHash& hash, std::string_view cell, NodeId node) {
   const auto& k = hash.mix_keys_drawn().k;
   if (hash.kind() == HashKind::mix)
     return fmt::format("scaled(mix_word(uvec4({}u, {}u, {}u, {}u), {}), {}u)", k[0], k[1], k[2], k[3], cell,
                        hash.values());
-  return fmt::format("int(chain({}, {}u, {}, {}, {}) % {}u)", permutation(hash), hash.table_length(),
-                     hash.chain_steps_x(), hash.chain_steps_y(), cell, hash.values());
+  return fmt::format("int(chain({}, {}u, {}, {}, {}) % {}u)", table_once(hash.permutation(), node),
+                     hash.table_length(), hash.chain_steps_x(), hash.chain_steps_y(), cell, hash.values());
 }
 
-std::string GraphWriter::hashed_number(const CellHash& hash, std::string_view cell) {
+std::string GraphWriter::hashed_number(const CellHash& hash, std::string_view cell, NodeId node) {
   const auto& k = hash.mix_keys_drawn().k;
   if (hash.kind() == HashKind::mix)
     return fmt::format("fraction_of(mix_word(uvec4({}u, {}u, {}u, {}u), {}))", k[0], k[1], k[2], k[3], cell);
-  return fmt::format("float(chain({}, {}u, {}, {}, {})) / {}.0", permutation(hash), hash.table_length(),
-                     hash.chain_steps_x(), hash.chain_steps_y(), cell, hash.table_length());
+  return fmt::format("float(chain({}, {}u, {}, {}, {})) / {}.0", table_once(hash.permutation(), node),
+                     hash.table_length(), hash.chain_steps_x(), hash.chain_steps_y(), cell,
+                     hash.table_length());
 }
 
 std::string GraphWriter::number_or(NodeId node, std::string_view place, double otherwise) const {
   return node == no_node ? real(otherwise) : fmt::format("number_{}({})", node, place);
 }
 
-std::string GraphWriter::table(const std::vector<std::int32_t>& words, NodeId node) {
-  const std::size_t first = program.words.size();
-  program.words.insert(program.words.end(), words.begin(), words.end());
-  if (program.words.size() > most_words)
+void GraphWriter::make_room(std::size_t more, NodeId node) const {
+  if (program.words.size() + more > most_words)
     refuse(node,
            fmt::format("with the maps of the nodes before it the scene has more than 2^24 stored numbers, "
                        "which a page does not hold; make its maps coarser"));
-  return std::to_string(first);
 }
 
-std::string GraphWriter::permutation(const CellHash& hash) {
-  return table({hash.permutation().begin(), hash.permutation().end()}, graph.output);
+std::string GraphWriter::table(const std::vector<std::int32_t>& words, NodeId node) {
+  make_room(words.size(), node);
+  const std::size_t first = program.words.size();
+  program.words.insert(program.words.end(), words.begin(), words.end());
+  return std::to_string(first);
 }
 
 std::string GraphWriter::stored_map(const StoredMap& map, bool is_whole, NodeId node) {
   for (const auto& [known, where] : placed)
     if (known == &map) return where;
-  const std::size_t cells =
-      static_cast<std::size_t>(map.size().width) * static_cast<std::size_t>(map.size().height);
-  if (cells > most_words) table(std::vector<std::int32_t>(cells), node);
+  make_room(static_cast<std::size_t>(map.size().width) * static_cast<std::size_t>(map.size().height), node);
   std::vector<std::int32_t> words;
   for (const float value : map.all().values)
     words.push_back(is_whole ? static_cast<std::int32_t>(std::floor(std::clamp(value, -1.0f, 1e9f)))
@@ -290,7 +290,7 @@ std::string GraphWriter::stored_map(const StoredMap& map, bool is_whole, NodeId 
 
 GraphProgram GraphWriter::write() {
   const std::vector<bool> reached = reachable_nodes(graph);
-  program.common = prelude;
+  program.common = filled(prelude, {{"LARGEST", real(largest_scale)}});
   program.common +=
       filled("Place place_at(uvec2 from, vec2 p) {\n"
              "  vec2 whole = floor(p);\n"

@@ -182,11 +182,13 @@ std::string shader_text(const Pack& pack, const ShaderSettings& settings, const 
   print.prefix = settings.name + "_";
   print.layers = pack.layout.kind == LayoutKind::array;
   print.wraps = !print.layers;
+  const std::string lookup = printer_of(settings.language, print)->text(program);
+  if (!settings.has_head) return lookup;
   std::string text = comment_of(settings.language, "Made by: " + made_by);
   text += comment_of(settings.language, fmt::format("Content of the pack: {:016x}", content));
   for (const std::string& line : usage(pack, settings, tables.words().chain_levels))
     text += comment_of(settings.language, line);
-  return text + "\n" + printer_of(settings.language, print)->text(program);
+  return text + "\n" + lookup;
 }
 
 } // namespace tilepack
