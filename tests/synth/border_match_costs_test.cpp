@@ -72,12 +72,14 @@ TEST_CASE("sums of many largest products do not overflow") {
 // that belong to the strips of the other direction.
 TEST_CASE("match costs are the differences between what strips show and what insides would show there") {
   const FeatureImage image = extreme_noise(60, 52, 3);
-  for (const Size tile : {Size{24, 18}, Size{17, 25}}) {
+  for (const auto& [tile, reach] :
+       {std::pair<Size, ReachShares>{{24, 18}, 0.2}, std::pair<Size, ReachShares>{{17, 25}, {0.2, 0.4}},
+        std::pair<Size, ReachShares>{{26, 20}, {0.45, 0.25}}}) {
     SynthOptions options;
     options.tile_size = {tile.width, tile.height};
     options.coloring = Coloring::corner;
     options.colors = {0, 0, 2};
-    const FrameShape shape = frame_shape(options, {}, 0.2, 0.3);
+    const FrameShape shape = frame_shape(options, {}, reach, 0.3);
     const BorderMatchCosts match_costs(image, shape, 10'000);
     REQUIRE(match_costs.positions().stride == 1);
     REQUIRE(match_costs.positions().columns == image.width - tile.width + 1);
@@ -94,14 +96,14 @@ TEST_CASE("match costs are the differences between what strips show and what ins
               for (int x = 0; x < tile.width; ++x) {
                 const int to_vertical = std::min(x, tile.width - 1 - x);
                 const int to_horizontal = std::min(y, tile.height - 1 - y);
-                const bool of_horizontal = to_horizontal <= to_vertical;
+                const bool of_horizontal = to_horizontal * shape.reach.x <= to_vertical * shape.reach.y;
                 if (of_horizontal != (direction == Direction::horizontal)) continue;
                 const int extent = of_horizontal ? tile.height : tile.width;
                 const int tile_across = of_horizontal ? y : x;
                 // The tile before an edge shows it at its far side.
                 const int distance = before ? extent - 1 - tile_across : tile_across;
-                if (distance >= shape.reach) continue;
-                const int across = before ? shape.reach - 1 - distance : shape.reach + distance;
+                if (distance >= axes.reach) continue;
+                const int across = before ? axes.reach - 1 - distance : axes.reach + distance;
                 expected += squared_difference(strip.shown(of_horizontal ? x : y, across),
                                                image.texel(i + x, j + y), image.channels);
               }
@@ -109,7 +111,7 @@ TEST_CASE("match costs are the differences between what strips show and what ins
             INFO("tile " << tile.width << " x " << tile.height << ", " << i << ", " << j
                          << (before ? " before" : " after"));
             CHECK(maps[static_cast<std::size_t>(side)][place] ==
-                  static_cast<float>(static_cast<double>(expected) / shape.reach));
+                  static_cast<float>(static_cast<double>(expected) / axes.reach));
           }
     }
   }

@@ -18,14 +18,14 @@ TEST_CASE("the step across a strip is that of the corner patches near its ends a
   CHECK(mean_step(features, Direction::vertical) == Approx(high * 0.5 / 63.0));
   FrameShape shape;
   shape.tile = {16, 16};
-  shape.reach = 2;
-  shape.corner_reach = 4;
+  shape.reach = {2, 2};
+  shape.corner_reach = {4, 4};
   const StripAxes axes = axes_of(shape, Direction::horizontal);
   const SourceTexel flat{56, 32};
   const SourceTexel striped{20, 32};
   CHECK(step_across(features, axes, {0, 30}) == Approx(high));
   CHECK(step_across(features, axes, {44, 30}) == 0.0);
-  CHECK(step_across(features, shape, axes, {0, 30}, striped, striped) == Approx(high));
-  CHECK(step_across(features, shape, axes, {0, 30}, flat, striped) == Approx(high * 14.0 / 16.0));
-  CHECK(step_across(features, shape, axes, {44, 30}, flat, striped) == Approx(high * 2.0 / 16.0));
+  CHECK(step_across(features, axes, {0, 30}, striped, striped) == Approx(high));
+  CHECK(step_across(features, axes, {0, 30}, flat, striped) == Approx(high * 14.0 / 16.0));
+  CHECK(step_across(features, axes, {44, 30}, flat, striped) == Approx(high * 2.0 / 16.0));
 }

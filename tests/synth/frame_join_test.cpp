@@ -23,7 +23,7 @@ struct SomeFrame {
   SomeFrame() {
     SynthOptions options = testing::two_colors({40, 32}, Coloring::corner, 0);
     options.guard = guard;
-    shape = frame_shape(options, {}, 0.2, 0.4);
+    shape = frame_shape(options, {}, {0.2, 0.3}, {0.45, 0.4});
     sources.corners = {{30, 40}, {90, 70}};
     for (int i = 0; i < 4; ++i) {
       sources.horizontal.push_back({5 + 20 * i, 11 * i});
@@ -67,7 +67,7 @@ TEST_CASE("a joined strip shows its corner patches at the ends, itself in the mi
   const SomeFrame some;
   for (const Direction direction : {Direction::horizontal, Direction::vertical}) {
     const StripAxes axes = axes_of(some.shape, direction);
-    REQUIRE(2 * some.shape.corner_reach < axes.length);
+    REQUIRE(2 * axes.corner_reach < axes.length);
     for (std::size_t i = 0; i < 4; ++i) {
       const SourceCanvas& canvas = some.strip(direction, i);
       REQUIRE((canvas.width == axes.width() && canvas.height == axes.height()));
@@ -80,9 +80,9 @@ TEST_CASE("a joined strip shows its corner patches at the ends, itself in the mi
           const SourceTexel own = sum(some.place(direction, i), t);
           const SourceTexel corners = sum(corner_origin(axes, some.corner(direction, i, end), end), t);
           const SourceTexel shown = canvas.at(t.x, t.y);
-          wrong += from_end < guard                      ? shown != corners
-                   : from_end >= some.shape.corner_reach ? shown != own
-                                                         : shown != own && shown != corners;
+          wrong += from_end < guard                ? shown != corners
+                   : from_end >= axes.corner_reach ? shown != own
+                                                   : shown != own && shown != corners;
         }
       CHECK(wrong == 0);
     }
@@ -115,8 +115,9 @@ TEST_CASE("the cuts of a joined strip cost no more than any straight ones") {
   for (const Direction direction : {Direction::horizontal, Direction::vertical})
     for (std::size_t i = 0; i < 4; ++i) {
       std::int64_t straight = std::numeric_limits<std::int64_t>::max();
-      for (int a = guard; a <= some.shape.corner_reach; ++a)
-        for (int b = guard; b <= some.shape.corner_reach; ++b)
+      const int reach = axes_of(some.shape, direction).corner_reach;
+      for (int a = guard; a <= reach; ++a)
+        for (int b = guard; b <= reach; ++b)
           straight = std::min(straight, seam_energy(some.image, cut_straight(some, direction, i, a, b)));
       const std::int64_t cut = seam_energy(some.image, some.strip(direction, i));
       CHECK(cut <= straight); // equal where the straight one is the best there is

@@ -49,7 +49,7 @@ double mean_step_of(const FeatureImage& image, const FrameShape& shape, const Fr
   const auto& ends = direction == Direction::horizontal ? shape.horizontal : shape.vertical;
   double steps = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i)
-    steps += step_across(image, shape, axes_of(shape, direction), places[i],
+    steps += step_across(image, axes_of(shape, direction), places[i],
                          sources.corners[static_cast<std::size_t>(ends[i].first)],
                          sources.corners[static_cast<std::size_t>(ends[i].second)]);
   return steps / static_cast<double>(places.size()) / mean_step(image, direction);

@@ -6,8 +6,8 @@ using namespace tilepack;
 
 TEST_CASE("strips reach as far as what a sample shows is large, within bounds") {
   const FramedSetSettings plain = settings_for(5, 1);
-  const auto reach = [&](double scale) { return fitted(plain, scale, 1000, {128, 160}, {}).reach; };
-  CHECK(reach(1.0) == plain.reach);
+  const auto reach = [&](double scale) { return fitted(plain, scale, 1000, {128, 160}, {}).reach.x; };
+  CHECK(reach(1.0) == plain.reach.x);
   CHECK(reach(6.4) == Approx(0.25));
   CHECK(reach(32.0) == plain.longest_reach);
   const auto with_periods = [&](double x, double y) {
@@ -16,16 +16,20 @@ TEST_CASE("strips reach as far as what a sample shows is large, within bounds") 
     periods.y.length = y;
     return fitted(plain, 32.0, 5000, {128, 128}, PeriodAlignment(periods, {128, 128}));
   };
-  CHECK(with_periods(0, 64).reach == plain.longest_reach_in_step);
-  CHECK(with_periods(64, 32).reach == Approx(1.1 * 32 / 128)); // half a brick and some room
-  CHECK(with_periods(128, 32).reach == plain.longest_reach_of_lattice);
-  CHECK(with_periods(8, 8).reach == plain.longest_reach_in_step);
+  CHECK(with_periods(0, 64).reach.x == plain.longest_reach_in_step);
+  CHECK(with_periods(0, 64).reach.y == plain.longest_reach_in_step);
+  CHECK(with_periods(64, 32).reach.x == Approx(1.1 * 32 / 128)); // half a brick and some room
+  CHECK(with_periods(64, 32).reach.y == plain.longest_reach_in_step);
+  CHECK(with_periods(32, 64).reach.y == Approx(1.1 * 32 / 128));
+  CHECK(with_periods(128, 32).reach.x == plain.longest_reach_of_lattice);
+  CHECK(with_periods(8, 8).reach.x == plain.longest_reach_in_step);
   CHECK(with_periods(64, 32).interiors.bias < with_periods(0, 64).interiors.bias);
   for (const double scale : {1.0, 4.0, 8.0, 32.0}) {
     const FramedSetSettings settings = fitted(plain, scale, 1000, {128, 128}, {});
-    CHECK(settings.corner_reach >= plain.corner_reach);
-    CHECK(settings.corner_reach >= settings.reach);
-    CHECK(settings.corner_reach <= 0.5); // of the tile
+    CHECK(settings.corner_reach.x >= plain.corner_reach.x);
+    CHECK(settings.corner_reach.x >= settings.reach.x);
+    CHECK(settings.corner_reach.x <= 0.5); // of the tile
+    CHECK(settings.corner_reach.y == settings.corner_reach.x);
   }
 }
 

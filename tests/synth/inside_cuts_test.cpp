@@ -22,7 +22,7 @@ TEST_CASE("an inside that goes on where its strips come from costs nothing, at a
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 32; ++x)
         framed.at(x, y) =
-            std::min({x, y, 31 - x, 31 - y}) < space.shape.reach ? SourceTexel{48 + x, 64 + y} : no_source;
+            std::min({x, y, 31 - x, 31 - y}) < space.shape.reach.x ? SourceTexel{48 + x, 64 + y} : no_source;
     const InsideCuts cuts(space, framed, 10);
     CHECK(cuts.cost({48 / scale, 64 / scale}) == 0);
     for (const SourceTexel place : {SourceTexel{0, 0}, SourceTexel{96, 100}, SourceTexel{52, 64}})
@@ -40,7 +40,7 @@ TEST_CASE("what a coarser cut settled stays, but not against what must be kept o
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 32; ++x)
       framed.at(x, y) =
-          std::min({x, y, 31 - x, 31 - y}) < space.shape.reach ? SourceTexel{48 + x, 64 + y} : no_source;
+          std::min({x, y, 31 - x, 31 - y}) < space.shape.reach.x ? SourceTexel{48 + x, 64 + y} : no_source;
   for (const CutConstraint all : {CutConstraint::take, CutConstraint::keep}) {
     InsideCuts cuts(space, framed, 10, 1);
     cuts.settle(std::vector<CutConstraint>(16 * 16, all));
@@ -61,7 +61,7 @@ TEST_CASE("the best place near another is found row by row as by an overlap") {
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 32; ++x)
       framed.at(x, y) =
-          std::min({x, y, 31 - x, 31 - y}) < space.shape.reach ? SourceTexel{51 + x, 63 + y} : no_source;
+          std::min({x, y, 31 - x, 31 - y}) < space.shape.reach.x ? SourceTexel{51 + x, 63 + y} : no_source;
   const TileLevels levels(space, framed);
   for (const std::size_t level : {0u, 1u})
     for (const SourceTexel start : {SourceTexel{0, 0}, SourceTexel{50, 62}, SourceTexel{126, 111}})

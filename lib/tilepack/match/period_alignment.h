@@ -34,12 +34,16 @@ public:
 
   bool free() const { return x.free() && y.free(); }
 
-  /// Of a sample that repeats along both axes, as bricks and paving do, the longer of the two periods, texels; else 0.
-  double lattice_period() const { return x.period > 0 && y.period > 0 ? std::max(x.period, y.period) : 0.0; }
+  /// Whether the sample repeats along both axes, as bricks and paving do.
+  bool lattice() const { return x.period > 0 && y.period > 0; }
+
+  /// Along each axis, texels; 0 where nothing repeats.
+  double period_x() const { return x.period; }
+  double period_y() const { return y.period; }
 
   /// Whether it is known of the first part too where it lies: lines are fixed along an axis, or both axes repeat, so
   /// that borders may lie on joints (cheapest_lines).
-  bool holds_first_part() const { return x.fixed || y.fixed || lattice_period() > 0; }
+  bool holds_first_part() const { return x.fixed || y.fixed || lattice(); }
 
   /// Whether a part that puts `texel` at a tile's north-west texel is in step: within half a step of a search
   /// that tries every `step`-th texel, and, where courses waver, in any case within a texel or a sixty-fourth of

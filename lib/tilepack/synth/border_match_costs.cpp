@@ -36,23 +36,26 @@ struct SideRow {
   int strip_across = 0; // in the strip's window
 };
 
-// `extent`: of the tile, across the edge.
-SideRow side_row(const StripAxes& axes, EdgeSide side, int extent, int distance) {
-  // The diagonal belongs to the horizontal strips.
-  const int skip = axes.direction == Direction::horizontal ? distance : distance + 1;
+// `extent`: of the tile, across the edge. `other`: how far strips of the other direction reach.
+SideRow side_row(const StripAxes& axes, EdgeSide side, int extent, int other, int distance) {
+  // As framed_tiles() has it: the diagonal belongs to the horizontal strips.
+  const int skip = axes.direction == Direction::horizontal ? (distance * other + axes.reach - 1) / axes.reach
+                                                           : distance * other / axes.reach + 1;
   const bool before = side == EdgeSide::before;
   return {skip, std::max(skip, axes.length - skip), before ? extent - 1 - distance : distance,
           before ? axes.reach - 1 - distance : axes.reach + distance};
 }
 
-int extent_across(const FrameShape& shape, Direction direction) {
-  return direction == Direction::horizontal ? shape.tile.height : shape.tile.width;
+SideRow side_row(const FrameShape& shape, const StripAxes& axes, EdgeSide side, int distance) {
+  return axes.direction == Direction::horizontal
+             ? side_row(axes, side, shape.tile.height, shape.reach.x, distance)
+             : side_row(axes, side, shape.tile.width, shape.reach.y, distance);
 }
 
 } // namespace
 
 const std::uint8_t* StripAt::shown(int along, int across) const {
-  const int half = shape.corner_reach / 2;
+  const int half = axes.corner_reach / 2;
   const SourceTexel t = axes.at(along, across);
   SourceTexel s = sum(place, t);
   if (along < half) s = sum(corner_origin(axes, first, End::first), t);
@@ -87,7 +90,7 @@ BorderMatchCosts::View BorderMatchCosts::view_of(FeatureImage image, const Strip
     std::vector<std::int64_t>& squares = view.squares[static_cast<std::size_t>(side)];
     squares.resize(places.count());
     for (int distance = 0; distance < axes.reach; ++distance) {
-      const SideRow row = side_row(axes, side, extent_across(shape, axes.direction), distance);
+      const SideRow row = side_row(shape, axes, side, distance);
       for (int line = 0; line < view.lines; ++line) {
         const std::int64_t* of_line =
             sums.data() + static_cast<std::size_t>(line * places.stride + row.tile_line) * stride;
@@ -109,7 +112,7 @@ MatchCostMap BorderMatchCosts::of_side(const StripAt& strip, EdgeSide side) cons
   std::vector<PairTerm> terms;
   std::int64_t constant = 0;
   for (int distance = 0; distance < axes.reach; ++distance) {
-    const SideRow row = side_row(axes, side, extent_across(shape, axes.direction), distance);
+    const SideRow row = side_row(shape, axes, side, distance);
     for (int along = row.from; along < row.to; along += 2) {
       const std::uint8_t* first = strip.shown(along, row.strip_across);
       const std::uint8_t* second = along + 1 < row.to ? strip.shown(along + 1, row.strip_across) : nullptr;
@@ -131,7 +134,7 @@ MatchCostMap BorderMatchCosts::of_side(const StripAt& strip, EdgeSide side) cons
       const int i = swapped ? line : place;
       const int j = swapped ? place : line;
       map[static_cast<std::size_t>(j) * static_cast<std::size_t>(places.columns) +
-          static_cast<std::size_t>(i)] = static_cast<float>(static_cast<double>(sum) / shape.reach);
+          static_cast<std::size_t>(i)] = static_cast<float>(static_cast<double>(sum) / axes.reach);
     }
   }
   return map;

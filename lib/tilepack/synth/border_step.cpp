@@ -37,9 +37,9 @@ double step_across(const FeatureImage& image, const StripAxes& axes, SourceTexel
   return static_cast<double>(total) / axes.length;
 }
 
-double step_across(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
-                   SourceTexel place, SourceTexel first, SourceTexel second) {
-  const int half = shape.corner_reach / 2;
+double step_across(const FeatureImage& image, const StripAxes& axes, SourceTexel place, SourceTexel first,
+                   SourceTexel second) {
+  const int half = axes.corner_reach / 2;
   std::int64_t total = 0;
   for (int along = 0; along < axes.length; ++along) {
     SourceTexel origin = place;

@@ -15,7 +15,7 @@ double step_across(const FeatureImage& image, const StripAxes& axes, SourceTexel
 
 /// With the corner patches `first` and `second` (see FrameSources) shown as far as their cuts run on average:
 /// what tiles will show at their borders.
-double step_across(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
-                   SourceTexel place, SourceTexel first, SourceTexel second);
+double step_across(const FeatureImage& image, const StripAxes& axes, SourceTexel place, SourceTexel first,
+                   SourceTexel second);
 
 } // namespace tilepack

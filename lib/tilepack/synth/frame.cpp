@@ -6,17 +6,18 @@
 
 namespace tilepack {
 
-FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, double reach,
-                       double corner_reach) {
+FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, ReachShares reach,
+                       ReachShares corner_reach) {
   FrameShape shape;
   shape.tile = options.tile_size;
   shape.alignment = PeriodAlignment(periods, shape.tile);
   const int side = std::min(options.tile_size.width, options.tile_size.height);
   shape.guard = std::max(1, options.guard);
-  shape.reach =
-      std::clamp(static_cast<int>(side * reach), shape.guard + 1, std::max(shape.guard + 1, side / 2));
-  shape.corner_reach =
-      std::clamp(static_cast<int>(side * corner_reach), shape.reach, std::max(shape.reach, side / 2));
+  const auto texels = [&](double share, int least) {
+    return std::clamp(static_cast<int>(side * share), least, std::max(least, side / 2));
+  };
+  shape.reach = {texels(reach.x, shape.guard + 1), texels(reach.y, shape.guard + 1)};
+  shape.corner_reach = {texels(corner_reach.x, shape.reach.x), texels(corner_reach.y, shape.reach.y)};
   if (options.coloring == Coloring::corner) {
     const int k = options.colors.corner;
     shape.corners = k;
@@ -44,27 +45,30 @@ FrameShape halved(const FrameShape& shape, int times) {
   const int scale = 1 << times;
   small.tile = {shape.tile.width / scale, shape.tile.height / scale};
   small.guard = shape.guard / scale;
-  small.reach = std::max(1, shape.reach / scale);
-  small.corner_reach = std::max(small.reach, shape.corner_reach / scale);
+  small.reach = {std::max(1, shape.reach.x / scale), std::max(1, shape.reach.y / scale)};
+  small.corner_reach = {std::max(small.reach.x, shape.corner_reach.x / scale),
+                        std::max(small.reach.y, shape.corner_reach.y / scale)};
   return small;
 }
 
 namespace {
 
-int distance_to_border(Size tile, int x, int y) {
-  return std::min({x, y, tile.width - 1 - x, tile.height - 1 - y});
+int from_side(int side, int at) {
+  return std::min(at, side - 1 - at);
 }
 
 } // namespace
 
 bool in_guard(const FrameShape& shape, int x, int y) {
-  return distance_to_border(shape.tile, x, y) < shape.guard;
+  return std::min(from_side(shape.tile.width, x), from_side(shape.tile.height, y)) < shape.guard;
 }
 
 CutConstraint constraint_at(const FrameShape& shape, int x, int y) {
-  const int distance = distance_to_border(shape.tile, x, y);
-  if (distance < shape.guard) return CutConstraint::keep;
-  return distance < shape.reach / unbiased_part ? CutConstraint::unbiased : CutConstraint::free;
+  if (in_guard(shape, x, y)) return CutConstraint::keep;
+  return from_side(shape.tile.width, x) < shape.reach.x / unbiased_part ||
+                 from_side(shape.tile.height, y) < shape.reach.y / unbiased_part
+             ? CutConstraint::unbiased
+             : CutConstraint::free;
 }
 
 } // namespace tilepack

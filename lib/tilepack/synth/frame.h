@@ -21,6 +21,12 @@ namespace tilepack {
 ///      │ ╱           ╲ │      tile's inside may run
 ///      ●─────strip─────●
 struct FrameShape {
+  /// How far something reaches, along x and along y, texels: vertical strips to either side of their edge by x,
+  /// horizontal ones by y; corner patches from their lattice point along horizontal edges by x, along vertical ones by y.
+  struct Reach {
+    int x = 2;
+    int y = 2;
+  };
   struct Strip {
     int first = 0;  ///< corner patch at its west or north end
     int second = 0; ///< at its east or south end
@@ -33,8 +39,8 @@ struct FrameShape {
   };
   Size tile;
   int guard = 1;
-  int reach = 2;        ///< guard < reach <= half the tile
-  int corner_reach = 2; ///< reach <= corner_reach <= half the tile
+  Reach reach;        ///< along each axis guard < reach <= half the tile
+  Reach corner_reach; ///< along each axis reach <= corner_reach <= half the tile
   int corners = 1;
   PeriodAlignment
       alignment; ///< of the whole periods that a tile holds, and of lattices of the lines that borders lie on
@@ -43,9 +49,17 @@ struct FrameShape {
   std::vector<Tile> tiles; ///< by tile id
 };
 
-/// The shape for a complete set; `reach` and `corner_reach` as shares of the tile's smaller side.
-FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, double reach,
-                       double corner_reach);
+/// How far strips or corner patches reach along x and along y, as shares of the tile's smaller side.
+struct ReachShares {
+  ReachShares(double along_both) : x(along_both), y(along_both) {}
+  ReachShares(double along_x, double along_y) : x(along_x), y(along_y) {}
+  double x;
+  double y;
+};
+
+/// The shape for a complete set.
+FrameShape frame_shape(const SynthOptions& options, const Periodicity& periods, ReachShares reach,
+                       ReachShares corner_reach);
 
 /// The same frame for an image `times` halved.
 FrameShape halved(const FrameShape& shape, int times);

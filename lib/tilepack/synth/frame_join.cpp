@@ -15,15 +15,15 @@ SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, co
   for (int y = 0; y < canvas.height; ++y)
     for (int x = 0; x < canvas.width; ++x) canvas.at(x, y) = {place.x + x, place.y + y};
   for (const End end : {End::first, End::second}) {
-    const SourceTexel start = axes.at(end == End::first ? 0 : axes.length - shape.corner_reach, 0);
-    const SourceTexel extent = axes.at(shape.corner_reach, 2 * axes.reach);
+    const SourceTexel start = axes.at(end == End::first ? 0 : axes.length - axes.corner_reach, 0);
+    const SourceTexel extent = axes.at(axes.corner_reach, 2 * axes.reach);
     LaidPatch patch{{start.x, start.y, extent.x, extent.y},
                     corner_origin(axes, end == End::first ? first : second, end),
                     {}};
     for (int y = 0; y < extent.y; ++y)
       for (int x = 0; x < extent.x; ++x) {
         const int along = axes.direction == Direction::horizontal ? x : y;
-        const int from_end = end == End::first ? along : shape.corner_reach - 1 - along;
+        const int from_end = end == End::first ? along : axes.corner_reach - 1 - along;
         patch.constraints.push_back(from_end < std::max(1, shape.guard) ? CutConstraint::take
                                                                         : CutConstraint::free);
       }

@@ -81,9 +81,8 @@ std::vector<std::size_t> chosen_together(const std::vector<std::vector<Place>>& 
 void refine_frame(const FeatureImage& image, const FrameShape& shape, int scale,
                   const FrameRefineOptions& options, FrameSources& sources) {
   const bool full_size = scale == 1;
-  const int margin = std::max(shape.reach, shape.corner_reach);
-  const SourceTexel low{margin, margin};
-  const SourceTexel high{std::max(margin, image.width - margin), std::max(margin, image.height - margin)};
+  const SourceTexel low{shape.corner_reach.x, shape.corner_reach.y};
+  const SourceTexel high{std::max(low.x, image.width - low.x), std::max(low.y, image.height - low.y)};
   for (SourceTexel& c : sources.corners) {
     c = {2 * c.x, 2 * c.y};
     if (full_size) c = sources.alignment.nearest(c, low, high);
@@ -107,8 +106,7 @@ void refine_frame(const FeatureImage& image, const FrameShape& shape, int scale,
         places[i] = std::min_element(near[i].begin(), near[i].end(), fits_better)->at;
         return;
       }
-      for (Place& place : near[i])
-        place.step = step_across(image, shape, axes, place.at, first, second) / usual;
+      for (Place& place : near[i]) place.step = step_across(image, axes, place.at, first, second) / usual;
     });
     if (usual <= 0.0) continue;
     const auto chosen = chosen_together(near, options);

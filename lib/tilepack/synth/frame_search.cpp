@@ -100,22 +100,23 @@ struct CornerPatches {
 };
 
 // The place of a corner patch nearest to this one that is in step with the first.
-SourceTexel in_step(const SearchSpace& space, const PeriodAlignment& alignment, SourceTexel at, int margin) {
+SourceTexel in_step(const SearchSpace& space, const PeriodAlignment& alignment, SourceTexel at,
+                    FrameShape::Reach margin) {
   const FeatureImage& image = space.small_image();
   const int scale = space.scale();
   const SourceTexel texel =
-      alignment.nearest({at.x * scale, at.y * scale}, {margin * scale, margin * scale},
-                        {(image.width - margin) * scale, (image.height - margin) * scale});
-  return {std::clamp((texel.x + scale / 2) / scale, margin, std::max(margin, image.width - margin)),
-          std::clamp((texel.y + scale / 2) / scale, margin, std::max(margin, image.height - margin))};
+      alignment.nearest({at.x * scale, at.y * scale}, {margin.x * scale, margin.y * scale},
+                        {(image.width - margin.x) * scale, (image.height - margin.y) * scale});
+  return {std::clamp((texel.x + scale / 2) / scale, margin.x, std::max(margin.x, image.width - margin.x)),
+          std::clamp((texel.y + scale / 2) / scale, margin.y, std::max(margin.y, image.height - margin.y))};
 }
 
 // By how much the part of a corner patch that is shown on average is more salient than it should be.
 double excess_of_corner(const SearchSpace& space, SourceTexel at) {
-  const int half = space.small_shape.corner_reach / 2;
+  const int across = space.small_shape.corner_reach.x / 2, down = space.small_shape.corner_reach.y / 2;
   const int scale = space.scale();
   return excess_in(space.sample.saliency,
-                   {(at.x - half) * scale, (at.y - half) * scale, 2 * half * scale, 2 * half * scale});
+                   {(at.x - across) * scale, (at.y - down) * scale, 2 * across * scale, 2 * down * scale});
 }
 
 // Of a few random places for each patch that which shows least of what the eye finds again, and of these the
@@ -127,9 +128,9 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
   const FrameShape& shape = space.small_shape;
   const FeatureImage& image = space.small_image();
   const int scale = space.scale();
-  const int margin = std::max(shape.reach, shape.corner_reach);
-  const auto range_x = static_cast<std::uint32_t>(std::max(1, image.width - 2 * margin + 1));
-  const auto range_y = static_cast<std::uint32_t>(std::max(1, image.height - 2 * margin + 1));
+  const FrameShape::Reach margin = shape.corner_reach;
+  const auto range_x = static_cast<std::uint32_t>(std::max(1, image.width - 2 * margin.x + 1));
+  const auto range_y = static_cast<std::uint32_t>(std::max(1, image.height - 2 * margin.y + 1));
   CornerPatches corners{{}, shape.alignment};
   for (int corner = 0; corner < shape.corners; ++corner) {
     SourceTexel best{};
@@ -138,8 +139,8 @@ CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions&
     for (int trial = 0; trial < options.corner_trials; ++trial) {
       const std::uint64_t index = (start * most_corners + static_cast<std::uint64_t>(corner)) * most_trials +
                                   static_cast<std::uint64_t>(trial);
-      SourceTexel at{margin + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
-                     margin + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
+      SourceTexel at{margin.x + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
+                     margin.y + static_cast<int>(random_below(options.seed, "corner y", index, range_y))};
       if (corner > 0 || shape.alignment.holds_first_part())
         at = in_step(space, corners.alignment, at, margin);
       int distance = std::numeric_limits<int>::max();
@@ -191,7 +192,7 @@ FrameStart frame_start(const FrameProblem& problem, std::uint64_t start) {
     const auto [first, second] = patches_at(problem, corners, i);
     PositionMap map = problem.space.search.mismatches(end_overlap(image, shape, axes, first, second));
     rule_out_of_step(map, corners.alignment.seen_from(strip_place(axes, scale)), scale);
-    strips[i].candidates = problem.ranking.best(map, axes, shape.corner_reach);
+    strips[i].candidates = problem.ranking.best(map, axes, axes.corner_reach);
   });
   return {corners, std::move(strips)};
 }

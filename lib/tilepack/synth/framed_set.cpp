@@ -198,7 +198,7 @@ void repair_tiles(const SearchSpace& space, const MatchLevels& levels, const Fra
   const FrameShape& shape = space.shape;
   repair_set(space, sources.alignment, uses_by(space, tiles), settings.set_repair, tiles);
   const UseTable uses = uses_by(space, tiles);
-  const int margin = std::min(settings.margin, shape.reach);
+  const int margin = std::min({settings.margin, shape.reach.x, shape.reach.y});
   const PeriodAlignment alignment = sources.alignment.seen_from({-margin, -margin});
   const auto fixed = fixed_texels(shape, margin);
   const Neighbours neighbours(shape);
@@ -235,7 +235,7 @@ SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
              PeriodAlignment(sample.periods, options.tile_size));
   const FeatureImage image = with_structure(sample.features, settings.structure);
   FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
-  if (shape.alignment.lattice_period() > 0)
+  if (shape.alignment.lattice())
     shape.alignment = shape.alignment.through(cheapest_lines(image, sample.periods));
   const SearchSpace space(sample, shape, searched_pyramid(image, shape.tile, settings),
                           settings.most_searched_texels);

@@ -73,13 +73,15 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
 FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile,
                          const PeriodAlignment& alignment) {
   const double side = std::min(tile.width, tile.height);
-  const double lattice = alignment.lattice_period();
-  if (lattice > 0) {
+  if (alignment.lattice()) {
     settings.structure.most_strong_share = settings.most_strong_share_of_lattice;
-    settings.reach = std::clamp(settings.reach_of_half_period * lattice / 2 / side,
-                                settings.longest_reach_in_step, settings.longest_reach_of_lattice);
+    const auto reach = [&](double period) {
+      return std::clamp(settings.reach_of_half_period * period / 2 / side, settings.longest_reach_in_step,
+                        settings.longest_reach_of_lattice);
+    };
+    settings.reach = {reach(alignment.period_x()), reach(alignment.period_y())};
   } else {
-    settings.reach = std::clamp(settings.reach_of_scale * object_scale / side, settings.reach,
+    settings.reach = std::clamp(settings.reach_of_scale * object_scale / side, settings.reach.x,
                                 alignment.free() ? settings.longest_reach : settings.longest_reach_in_step);
     // Not of a lattice: its variance is that of joints, in which all parts agree, and a bias by it would rather cut
     // bricks in two than go round them.
@@ -87,7 +89,11 @@ FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::i
         settings.interiors.bias,
         static_cast<std::int64_t>(settings.bias_of_variance * static_cast<double>(variance)));
   }
-  settings.corner_reach = std::max(settings.corner_reach, settings.reach * settings.corner_reach_of_reach);
+  const auto corner_reach = [&](double least, double reach) {
+    return std::max(least, reach * settings.corner_reach_of_reach);
+  };
+  settings.corner_reach = {corner_reach(settings.corner_reach.x, settings.reach.x),
+                           corner_reach(settings.corner_reach.y, settings.reach.y)};
   settings.set_repair.price =
       static_cast<std::int64_t>(settings.price_of_bias * static_cast<double>(settings.interiors.bias));
   return settings;

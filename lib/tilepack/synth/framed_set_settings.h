@@ -5,6 +5,7 @@
 #include "tilepack/match/period_alignment.h"
 #include "tilepack/seam/patch_match.h"
 #include "tilepack/seam/seam_repair.h"
+#include "tilepack/synth/frame.h"
 #include "tilepack/synth/set_repair.h"
 
 #include <cstddef>
@@ -124,13 +125,13 @@ struct FramedSetSettings {
 
   /// Half the width of a strip, of the tile's smaller side, at least: 16 of 128 texels leave the cut room, and
   /// three quarters of the side to the inside. (q)
-  double reach = 0.125;
+  ReachShares reach = 0.125;
   /// And at most. 0.3 instead shows 0.3 windows more, at 3 joins more. (j)
   double longest_reach = 0.375;
   /// The same where tiles hold whole periods of the sample along one axis (PeriodAlignment): parts in step join well
   /// anyway, and wide strips show less of the sample. (q; planks of tests/quality)
   double longest_reach_in_step = 0.2;
-  /// Where they do along both, so many times half the longer period: a cut that goes
+  /// Where they do along both, so many times half the period along each axis: a cut that goes
   /// round bricks, which are laid by half, goes along a joint for half a brick from each course to the next, and wants
   /// a little room; borders lie on joints (cheapest_lines). By eye, at bricks of different tones, which shorter strips cut in two.
   double reach_of_half_period = 1.1;
@@ -145,7 +146,7 @@ struct FramedSetSettings {
   double reach_of_scale = 5.0;
   /// How far corner patches reach along the edges, likewise, at least: half as far again as the shortest strips,
   /// so that cuts between the two do not meet those to the inside. (q)
-  double corner_reach = 0.1875;
+  ReachShares corner_reach = 0.1875;
   double corner_reach_of_reach = 1.07; ///< and at least so many times the reach: 3/8 becomes 0.4 (j)
   /// InteriorOptions::bias as a share of the sample's variance (variance_of): more of it shows more of the sample, at
   /// the price of hairlines. Not where tiles hold whole periods along both axes. (j)

@@ -52,10 +52,10 @@ std::vector<Choice> block_minima(PositionMap& map, std::size_t limit) {
 
 // What is seen of a strip: cuts run half-way between border and reach.
 Rect shown_part(const FrameShape& shape, SourceTexel strip, Direction direction) {
-  const int shown = shape.reach;
-  const int across = shape.reach - shown / 2;
-  return direction == Direction::horizontal ? Rect{strip.x, strip.y + across, shape.tile.width, shown}
-                                            : Rect{strip.x + across, strip.y, shown, shape.tile.height};
+  const StripAxes axes = axes_of(shape, direction);
+  const SourceTexel first = sum(strip, axes.at(0, axes.reach - axes.reach / 2));
+  const SourceTexel extent = axes.at(axes.length, axes.reach);
+  return {first.x, first.y, extent.x, extent.y};
 }
 
 void set_reuse_weights(const Saliency& saliency, double saliency_weight, int scale, UseCounts& counts) {
@@ -99,15 +99,12 @@ struct InteriorTask {
   UseCounts counts;                                // of what is placed; strips at first
   UseTable uses;                                   // the same, prepared
   SampleStatistics::Tally tally;                   // likewise
-  Size tile;
-  int inset;             // an inside is shown this far from the borders of its tile
-  int scale;             // texels of the sample to one of the search
-  double average;        // how often a part of the sample is shown
-  double all_mismatches; // the sum of the best of each tile
+  Rect shown;                                      // of an inside, in its tile
+  int scale;                                       // texels of the sample to one of the search
+  double average;                                  // how often a part of the sample is shown
+  double all_mismatches;                           // the sum of the best of each tile
 
-  Rect inside(SourceTexel at) const {
-    return {at.x + inset, at.y + inset, tile.width - 2 * inset, tile.height - 2 * inset};
-  }
+  Rect inside(SourceTexel at) const { return {at.x + shown.x, at.y + shown.y, shown.width, shown.height}; }
   Rect inside_in_sample(SourceTexel at) const {
     const Rect r = inside(at);
     return {r.x * scale, r.y * scale, r.width * scale, r.height * scale};
@@ -193,6 +190,13 @@ std::vector<std::vector<Choice>> listed_choices(const SearchSpace& space, const 
   return choices;
 }
 
+// Cuts run half-way between borders and the reach of strips.
+Rect inside_shown(const FrameShape& shape, Size small_tile, int scale) {
+  const int most = std::min(small_tile.width, small_tile.height) / 2 - 1;
+  const int x = std::min(shape.reach.x / 2 / scale, most), y = std::min(shape.reach.y / 2 / scale, most);
+  return {x, y, small_tile.width - 2 * x, small_tile.height - 2 * y};
+}
+
 InteriorTask interior_task(const SearchSpace& space, const FrameSources& sources,
                            const std::vector<std::vector<Choice>>& choices, const InteriorOptions& options) {
   const SampleStatistics& statistics = space.sample.statistics;
@@ -215,8 +219,7 @@ InteriorTask interior_task(const SearchSpace& space, const FrameSources& sources
           counts,
           prepared(counts),
           strips_tally(space.shape, sources, statistics),
-          tile,
-          std::min(space.shape.reach / 2 / scale, std::min(tile.width, tile.height) / 2 - 1),
+          inside_shown(space.shape, tile, scale),
           scale,
           static_cast<double>(choices.size()) * tile.width * tile.height /
               (static_cast<double>(small.width) * small.height),
@@ -298,6 +301,7 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
   std::vector<SourceCanvas> tiles(shape.tiles.size());
   const int w = shape.tile.width;
   const int h = shape.tile.height;
+  const FrameShape::Reach reach = shape.reach;
   each_side_by_side(tiles.size(), [&](std::size_t id) {
     const FrameShape::Tile& t = shape.tiles[id];
     const SourceCanvas& north = frame.horizontal[static_cast<std::size_t>(t.north)];
@@ -312,12 +316,12 @@ std::vector<SourceCanvas> framed_tiles(const FrameShape& shape, const Frame& fra
         const int vertical = std::min(y, from_south);
         const int horizontal = std::min(x, from_east);
         SourceTexel& texel = canvas.at(x, y);
-        if (std::min(vertical, horizontal) >= shape.reach)
+        if (vertical >= reach.y && horizontal >= reach.x)
           texel = no_source;
-        else if (vertical <= horizontal)
-          texel = y <= from_south ? north.at(x, shape.reach + y) : south.at(x, shape.reach - 1 - from_south);
+        else if (vertical * reach.x <= horizontal * reach.y) // the diagonal, and nearer to a horizontal edge
+          texel = y <= from_south ? north.at(x, reach.y + y) : south.at(x, reach.y - 1 - from_south);
         else
-          texel = x <= from_east ? west.at(shape.reach + x, y) : east.at(shape.reach - 1 - from_east, y);
+          texel = x <= from_east ? west.at(reach.x + x, y) : east.at(reach.x - 1 - from_east, y);
       }
     tiles[id] = std::move(canvas);
   });

@@ -45,7 +45,8 @@ public:
     if (scales.empty()) add_scale(0);
     // Windows at two sides of a tile must not touch: they are laid side by side.
     const int most = std::max(4 * scale, std::min(space.shape.tile.width, space.shape.tile.height) * 3 / 4);
-    for (const int wanted : {2 * space.shape.reach, space.shape.reach}) {
+    const int reach = std::max(space.shape.reach.x, space.shape.reach.y);
+    for (const int wanted : {2 * reach, reach}) {
       const int side = std::clamp(wanted, 4 * scale, most) / (2 * scale) * (2 * scale);
       if (sides.empty() || side < sides.back()) sides.push_back(side);
     }

@@ -5,7 +5,9 @@
 namespace tilepack {
 
 StripAxes axes_of(const FrameShape& shape, Direction direction) {
-  return {direction, direction == Direction::horizontal ? shape.tile.width : shape.tile.height, shape.reach};
+  return direction == Direction::horizontal
+             ? StripAxes{direction, shape.tile.width, shape.reach.y, shape.corner_reach.x}
+             : StripAxes{direction, shape.tile.height, shape.reach.x, shape.corner_reach.y};
 }
 
 SourceTexel corner_origin(const StripAxes& axes, SourceTexel corner, End end) {
@@ -19,7 +21,7 @@ Overlap end_overlap(const FeatureImage& image, const FrameShape& shape, const St
   for (const End end : {End::first, End::second}) {
     const SourceTexel origin = corner_origin(axes, end == End::first ? first : second, end);
     for (int across = 0; across < 2 * axes.reach; ++across)
-      for (int i = std::min(shape.guard, shape.corner_reach - 1); i < shape.corner_reach; ++i) {
+      for (int i = std::min(shape.guard, axes.corner_reach - 1); i < axes.corner_reach; ++i) {
         const SourceTexel t = axes.at(end == End::first ? i : axes.length - 1 - i, across);
         const SourceTexel s = sum(origin, t);
         overlap.add(t.x, t.y, image.clamped_texel(s.x, s.y));

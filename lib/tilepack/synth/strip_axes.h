@@ -13,8 +13,9 @@ enum class End { first, second };
 /// A strip of either direction in one frame of reference: `along` its edge, `across` it.
 struct StripAxes {
   Direction direction = Direction::horizontal;
-  int length = 0; ///< along: the tile's side
-  int reach = 0;  ///< across: half the width
+  int length = 0;       ///< along: the tile's side
+  int reach = 0;        ///< across: half the width
+  int corner_reach = 0; ///< along: how far the corner patches at its ends reach
 
   int width() const { return direction == Direction::horizontal ? length : 2 * reach; }
   int height() const { return direction == Direction::horizontal ? 2 * reach : length; }
