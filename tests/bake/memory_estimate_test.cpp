@@ -28,6 +28,8 @@ TEST_CASE("the estimate of memory meets what bakes took") {
       {rgb(512), {}, 2, 41},
       {rgb(512), {}, 1, 32},
       {rgb(512), {{"tile-size", "64", ""}}, 1, 31},
+      {rgb(512), {{"tile-size", "32", ""}}, 2, 51},
+      {rgb(512), {{"tile-size", "16", ""}}, 2, 52},
       {rgb(512), {{"tile-size", "64", ""}}, 4, 34.5}, // asked for on two cores, where no more than two work
       {rgb(512), {{"colors", "3", ""}}, 2, 92},
       {rgb(512), {{"colors", "4", ""}}, 2, 207},
@@ -45,7 +47,8 @@ TEST_CASE("the estimate of memory meets what bakes took") {
   for (const Measured& m : table) {
     std::vector<BakeSetting> settings{{"tile-size", "128", ""},
                                       {"flatten", "0", ""},
-                                      {"straighten", "false", ""}}; // unless the row has another
+                                      {"straighten", "false", ""},
+                                      {"wraps", "no", ""}}; // unless the row has another
     settings.insert(settings.end(), m.settings.begin(), m.settings.end());
     const double estimate =
         static_cast<double>(memory_estimate(m.maps, bake_options(settings), m.threads)) / 1e6;
@@ -59,7 +62,7 @@ TEST_CASE("the estimate of memory meets what bakes took") {
 TEST_CASE(
     "the estimate counts what flattening takes where the sample decides, and what straightening takes") {
   const auto estimate = [&](std::vector<BakeSetting> settings) {
-    settings.push_back({"tile-size", "128", ""});
+    settings.insert(settings.begin(), {{"tile-size", "128", ""}, {"wraps", "no", ""}});
     return memory_estimate(rgb(2048), bake_options(settings), 2);
   };
   const std::int64_t as_it_is = estimate({{"flatten", "0", ""}, {"straighten", "false", ""}});
@@ -68,4 +71,8 @@ TEST_CASE(
   CHECK(estimate({{"flatten", "auto", ""}, {"straighten", "false", ""}}) == as_it_is + copy);
   CHECK(estimate({{"flatten", "0", ""}}) == as_it_is + copy); // straightened, if need be
   CHECK(estimate({}) == as_it_is + copy);                     // one is held at the end, whatever was done
+  // Continued by a tile, as channels, features and what goes with each texel.
+  const std::int64_t more = std::int64_t{2176} * 2176 - std::int64_t{2048} * 2048;
+  CHECK(estimate({{"wraps", "auto", ""}}) == estimate({{"wraps", "yes", ""}}));
+  CHECK(estimate({{"wraps", "yes", ""}}) > as_it_is + copy + 3 * 4 * more);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double program = 13e6;
 constexpr double a_thread = 3e6;
 constexpr double about_a_sample_texel = 5;
-constexpr double about_a_searched_texel = 240;
+constexpr double about_a_searched_texel = 105;
 constexpr double about_a_texel_beyond = 40; // of the level that is searched in parts
 constexpr double about_a_tile_texel = 23;
 constexpr double about_a_float_stored = 32; // what the encoder of EXR holds
@@ -47,10 +47,25 @@ bool placed_one_by_one(const BakeOptions& o) {
          !o.corner_pack && !o.full_mips;
 }
 
+// By a tile along each axis.
+bool may_be_continued(const BakeOptions& o) {
+  return o.wraps != WrapChoice::no;
+}
+
 // Maps that are straightened, made even in tone or continued are held beside those that were read; whether a sample
 // asks for it, nothing tells before it is read.
 bool may_hold_copies(const BakeOptions& o) {
-  return o.flatten > 0 || o.fit_flatten || o.straighten || o.wraps == WrapChoice::yes;
+  return o.flatten > 0 || o.fit_flatten || o.straighten || may_be_continued(o);
+}
+
+// The sample that is synthesized from.
+Size kept_size(Size sample, const BakeOptions& o) {
+  if (!may_be_continued(o)) return sample;
+  return {sample.width + o.synth.tile_size.width, sample.height + o.synth.tile_size.height};
+}
+
+double texels_of(Size size) {
+  return static_cast<double>(size.width) * size.height;
 }
 
 // Of the level that is searched.
@@ -96,17 +111,16 @@ std::int64_t memory_estimate(std::span<const MapShape> maps, const BakeOptions& 
   }
   const double features = std::min<double>(channels, max_feature_channels);
   const Size size = maps.empty() ? Size{} : maps.front().size;
-  const double sample_texels = static_cast<double>(size.width) * size.height;
-  const double tile_texels =
-      static_cast<double>(options.synth.tile_size.width) * options.synth.tile_size.height;
+  const double read_texels = may_hold_copies(options) ? texels_of(size) : 0; // beside those that are kept
+  const double sample_texels = texels_of(kept_size(size, options));
+  const double tile_texels = texels_of(options.synth.tile_size);
 
-  const double of_sample = channels * a_float * (may_hold_copies(options) ? 2 : 1) + features +
-                           (features + 1) * all_levels + about_a_sample_texel;
+  const double of_sample = channels * a_float + features + (features + 1) * all_levels + about_a_sample_texel;
   const double of_tile =
       channels * a_float * ((placed_one_by_one(options) ? 0 : 1) + all_levels * texture_share(options)) +
       float_channels * about_a_float_stored + about_a_tile_texel;
   const double sources_left_out = (made_tiles(options) - packed_tiles(options)) * sizeof(std::int32_t) * 2;
-  double bytes = program + a_thread * threads + sample_texels * of_sample +
+  double bytes = program + a_thread * threads + read_texels * channels * a_float + sample_texels * of_sample +
                  searched_bytes(sample_texels, options.synth.tile_size) +
                  tile_texels * (packed_tiles(options) * of_tile + sources_left_out);
   if (options.mapping == MappingKind::index)

@@ -23,18 +23,17 @@ struct MapShape {
 ///                                               structure and its pyramid, what is known of the texel; 4 C more
 ///                                               where maps may be flattened, straightened or continued, be it that
 ///                                               the sample decides
-///   + a searched texel   240                    of the level that is searched, and 40 where it is searched in parts
+///   + a searched texel   105                    of the level that is searched, and 40 where it is searched in parts
 ///   + a tile's texel     16/3 C + 23            levels of the pack; source, encoder; 4 C more where tiles are not
 ///                                               given up as they are placed; 32 C more where floats are stored (EXR)
 ///   + a cell             9                      of an index mapping
 ///
 /// C and F count over all maps; a tile's texel counts as often as the texture is larger than its tiles. Where the size of
-/// tiles follows the sample, the largest it can be counts. Not counted: the tile by which a sample is continued that
-/// is found to wrap, and the tiles of a normal map, which are kept until all maps are placed. The coefficients of C and F
-/// follow from the types held; the constants are fitted to bakes with one to four maps, 512² to 8192² texels, 16 to 256
-/// tiles: tests/bake/memory_estimate_test.cpp holds the estimate against measured peaks, which it meets within 20 % where
-/// no copy is made and tiles are 64² texels or larger. For smaller ones, for
-/// which all of the sample is searched, it is more: 63 MB for 16² tiles from a sample of 512², which took 46.
+/// tiles follows the sample, the largest it can be counts. A sample that may wrap counts with the tile by which it would be
+/// continued along each axis. Not counted: the tiles of a normal map, which are kept until all maps are placed. The
+/// coefficients of C and F follow from the types held; the constants are fitted to bakes with one to four maps, 512² to 8192²
+/// texels, 16 to 256 tiles: tests/bake/memory_estimate_test.cpp holds the estimate against measured peaks, which it meets
+/// within 20 % where no copy is made.
 std::int64_t memory_estimate(std::span<const MapShape> maps, const BakeOptions& options, int threads);
 
 } // namespace tilepack
