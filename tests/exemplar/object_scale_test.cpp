@@ -40,5 +40,5 @@ TEST_CASE("a flat sample has the least scale, and no sample more than the longes
   Image halves(256, 64, 1);
   for (int y = 0; y < 64; ++y)
     for (int x = 128; x < 256; ++x) halves.texel(x, y)[0] = 1.0f;
-  CHECK(object_scale(features(halves)) <= longest_lag);
+  CHECK(object_scale(features(halves)) <= largest_object_scale({256, 64}));
 }

@@ -29,7 +29,7 @@ struct SomeFrame {
       sources.horizontal.push_back({5 + 20 * i, 11 * i});
       sources.vertical.push_back({17 * i, 80 - 20 * i});
     }
-    frame = joined_frame(image, shape, sources);
+    frame = joined_frame(FeaturePyramid(image), shape, sources);
   }
 
   const SourceCanvas& strip(Direction direction, std::size_t i) const {

@@ -17,7 +17,7 @@ struct FramedTiles {
       FeaturePyramid(sample.features)};
   FrameSources sources = searched_frame(space, {}, {});
   std::vector<SourceCanvas> tiles =
-      framed_tiles(space.shape, joined_frame(sample.features, space.shape, sources));
+      framed_tiles(space.shape, joined_frame(FeaturePyramid(sample.features), space.shape, sources));
 
   InteriorChoice chosen(int starts, std::uint64_t seed) const {
     InteriorOptions options;

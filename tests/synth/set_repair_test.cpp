@@ -26,7 +26,8 @@ struct JoinedSet {
       : space(sample, frame_shape(testing::two_colors({64, 64}, coloring, 1), Periodicity{}, 0.25, 0.3),
               pyramid(sample, levels)),
         sources(searched_frame(space, {}, {})),
-        tiles(framed_tiles(space.shape, joined_frame(sample.features, space.shape, sources))) {
+        tiles(
+            framed_tiles(space.shape, joined_frame(FeaturePyramid(sample.features), space.shape, sources))) {
     join_interiors(space, chosen_interiors(space, sources, tiles, {}).places, 10, tiles);
   }
 

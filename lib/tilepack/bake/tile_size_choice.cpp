@@ -70,7 +70,7 @@ int tile_side_for(Size sample, double object_scale, int tiles) {
 }
 
 int largest_tile_side_for(Size sample, int tiles) {
-  return tile_side_for(sample, longest_lag, tiles);
+  return tile_side_for(sample, largest_object_scale(sample), tiles);
 }
 
 Size tile_size_in_step(const Periodicity& periods, int side, Size sample) {

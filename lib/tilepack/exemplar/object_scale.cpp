@@ -10,6 +10,12 @@
 namespace tilepack {
 namespace {
 
+constexpr int longest_lag = 32; // texels of the image that is looked at
+constexpr int least_half = 512; // the shorter side of an image that is looked at beside one twice as large
+// Of the variance at full size. By averaging grain loses more at each halving, and shading has less than that.
+constexpr double coarse_share = 0.25;
+constexpr double grain = 5; // texels: less is what is left of grain (gravel 3.8, bark 4.9)
+
 constexpr int half_box = 32;   // slower than this square is shading
 constexpr int most_side = 768; // of the middle of the sample, which is looked at
 
@@ -74,12 +80,15 @@ double correlation(const Relief& relief, int dx, int dy) {
   return static_cast<double>(sum) / (static_cast<double>(x1 - x0) * y1);
 }
 
-} // namespace
+struct Seen {
+  double scale;
+  double variance;
+};
 
-double object_scale(const FeatureImage& image) {
+Seen seen_in(const FeatureImage& image) {
   const Relief relief = relief_of(image);
   const double variance = correlation(relief, 0, 0);
-  if (!(variance > 0.0)) return 1.0;
+  if (!(variance > 0.0)) return {1.0, 0.0};
   std::array<double, longest_lag + 1> at_lag{};
   at_lag[0] = 1.0;
   tbb::parallel_for(1, longest_lag + 1, [&](int lag) {
@@ -92,9 +101,38 @@ double object_scale(const FeatureImage& image) {
   constexpr double independent = 0.1;
   for (std::size_t lag = 1; lag < at_lag.size(); ++lag)
     if (at_lag[lag] < independent)
-      return static_cast<double>(lag) -
-             (independent - at_lag[lag]) / std::max(1e-9, at_lag[lag - 1] - at_lag[lag]);
-  return longest_lag;
+      return {static_cast<double>(lag) -
+                  (independent - at_lag[lag]) / std::max(1e-9, at_lag[lag - 1] - at_lag[lag]),
+              variance};
+  return {longest_lag, variance};
+}
+
+bool has_half(Size size) {
+  return std::min(size.width, size.height) >= 2 * least_half;
+}
+
+} // namespace
+
+double object_scale(const FeatureImage& image) {
+  const Seen full = seen_in(image);
+  double scale = full.scale;
+  FeatureImage half;
+  double texels = 1;
+  for (const FeatureImage* seen = &image; has_half({seen->width, seen->height});) {
+    half = halved(*seen);
+    seen = &half;
+    texels *= 2;
+    const Seen coarse = seen_in(half);
+    if (coarse.scale >= grain && coarse.variance >= coarse_share * full.variance)
+      scale = std::max(scale, texels * coarse.scale);
+  }
+  return scale;
+}
+
+double largest_object_scale(Size sample) {
+  double scale = longest_lag;
+  for (; has_half(sample); sample = {sample.width / 2, sample.height / 2}) scale *= 2;
+  return scale;
 }
 
 } // namespace tilepack

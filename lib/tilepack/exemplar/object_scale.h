@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tilepack/exemplar/feature_image.h"
+#include "tilepack/image/image.h"
 
 namespace tilepack {
 
@@ -9,8 +10,12 @@ namespace tilepack {
 /// directions. Grass, gravel, sand: 3 to 5; litter 7; cracked mud 9; walls 9; pebbles 13; bricks 17; what is seen as
 /// one object is about four times as wide.
 ///
-/// At most `longest_lag`.
+/// Samples of which both sides have 1024 texels or more are looked at at half their size too, and so on while 512 are left:
+/// where what is seen there varies as much as `coarse_share` of all and is no grain, its scale counts if it is larger. A
+/// photo of 4096² has the scale of its stones, be they 400 texels wide, and not that of the grit on them.
+///
+/// At most largest_object_scale().
 double object_scale(const FeatureImage& image);
-constexpr int longest_lag = 32;
+double largest_object_scale(Size sample);
 
 } // namespace tilepack

@@ -10,13 +10,13 @@
 namespace tilepack {
 namespace {
 
-constexpr int cell = Saliency::side;
+constexpr int usual_cell = 16; // texels, of samples of less than 1024
 constexpr int compared_channels = 3;
 constexpr std::size_t most_measures = 2 * compared_channels; // means, differences between them, contrast
 
 using Measures = std::array<std::int64_t, most_measures>;
 
-Measures measured(const FeatureImage& image, int channels, int west, int north) {
+Measures measured(const FeatureImage& image, int channels, int cell, int west, int north) {
   std::array<std::int64_t, compared_channels> sums{};
   std::int64_t steps = 0;
   for (int y = north; y < north + cell; ++y)
@@ -40,11 +40,14 @@ Measures measured(const FeatureImage& image, int channels, int west, int north) 
 } // namespace
 
 Saliency saliency_of(const FeatureImage& image) {
-  Saliency result{image.width / cell, image.height / cell, {}};
+  int cell = usual_cell;
+  for (int side = std::min(image.width, image.height); side >= 1024; side /= 2) cell *= 2;
+  Saliency result{image.width / cell, image.height / cell, {}, cell};
   const int channels = std::min(image.channels, compared_channels);
   std::vector<Measures> measures;
   for (int j = 0; j < result.high; ++j)
-    for (int i = 0; i < result.wide; ++i) measures.push_back(measured(image, channels, i * cell, j * cell));
+    for (int i = 0; i < result.wide; ++i)
+      measures.push_back(measured(image, channels, cell, i * cell, j * cell));
   result.values.resize(measures.size());
   const double count = static_cast<double>(measures.size());
   for (std::size_t m = 0; m < most_measures; ++m) {
@@ -64,8 +67,9 @@ Saliency saliency_of(const FeatureImage& image) {
 }
 
 double excess_in(const Saliency& saliency, Rect area) {
+  const int cell = saliency.side;
   double most = salient_deviation;
-  const auto overlap = [](int first, int last, int index) {
+  const auto overlap = [cell](int first, int last, int index) {
     return std::min(last, (index + 1) * cell) - std::max(first, index * cell);
   };
   for (int j = std::max(0, area.y / cell); j < saliency.high && j * cell < area.y + area.height; ++j)
@@ -77,6 +81,7 @@ double excess_in(const Saliency& saliency, Rect area) {
 }
 
 Landmark most_seen(const Saliency& saliency, Size sample, std::span<const int> showing, std::size_t tiles) {
+  const int cell = saliency.side;
   Landmark best;
   double most = 0.0;
   for (int j = 0; j < saliency.high; ++j)
@@ -86,11 +91,11 @@ Landmark most_seen(const Saliency& saliency, Size sample, std::span<const int> s
         const auto row =
             showing.subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(sample.width) +
                                 static_cast<std::size_t>(i * cell),
-                            cell);
+                            static_cast<std::size_t>(cell));
         shown = std::accumulate(row.begin(), row.end(), shown);
       }
       const double share =
-          static_cast<double>(shown) / (static_cast<double>(cell * cell) * static_cast<double>(tiles));
+          static_cast<double>(shown) / (static_cast<double>(cell) * cell * static_cast<double>(tiles));
       const double deviation = saliency.at(i, j);
       if ((deviation - salient_deviation) * share > most) {
         most = (deviation - salient_deviation) * share;

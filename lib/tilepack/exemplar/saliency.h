@@ -17,10 +17,10 @@ namespace tilepack {
 ///   the mean step between neighbouring texels (contrast).
 /// Of a thousand cells of photos without anything that catches the eye ten to thirty deviate by more than 3.
 struct Saliency {
-  static constexpr int side = 16;
   int wide = 0;
   int high = 0;
   std::vector<double> values; ///< row by row
+  int side = 16; ///< texels; twice as many for each halving that leaves 512 texels along both sides
 
   double at(int x, int y) const { return values[static_cast<std::size_t>(y) * wide + x]; }
 };

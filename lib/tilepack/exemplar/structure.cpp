@@ -246,6 +246,41 @@ private:
   std::vector<std::uint8_t> values;
 };
 
+// Where the texels of a row or column of an image lie between those of one halved so many times, in whole numbers.
+class Enlarged {
+public:
+  struct Place {
+    std::size_t first, second;
+    int part; // of the second, in 1 / (2 · 2^halvings)
+    int unit;
+  };
+
+  Enlarged(int texels, int small_texels, int halvings) {
+    const int unit = 2 << halvings;
+    for (int i = 0; i < texels; ++i) {
+      const int middle = std::max(0, 2 * i + 1 - unit / 2); // from the middle of the first small texel
+      const auto first = static_cast<std::size_t>(std::min(middle / unit, small_texels - 1));
+      const std::size_t second = std::min(first + 1, static_cast<std::size_t>(small_texels - 1));
+      places.push_back({first, second, middle % unit, unit});
+    }
+  }
+  const Place& operator[](std::size_t i) const { return places[i]; }
+
+  // Bilinear, rounded; `upper` and `lower` are the rows of `y`.
+  static int between(const Place& x, const Place& y, const std::uint8_t* upper, const std::uint8_t* lower) {
+    const auto along = [&](const std::uint8_t* row) {
+      return row[x.first] * (x.unit - x.part) + row[x.second] * x.part;
+    };
+    const std::int64_t sum =
+        std::int64_t{along(upper)} * (y.unit - y.part) + std::int64_t{along(lower)} * y.part;
+    const std::int64_t all = std::int64_t{x.unit} * y.unit;
+    return static_cast<int>((sum + all / 2) / all);
+  }
+
+private:
+  std::vector<Place> places;
+};
+
 } // namespace
 
 std::int64_t variance_of(const FeatureImage& image) {
@@ -266,24 +301,39 @@ std::int64_t variance_of(const FeatureImage& image) {
   return std::llround(variance);
 }
 
-FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options) {
+FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options, int halvings) {
   if (image.channels >= max_feature_channels || options.weight <= 0.0) return image;
-  const EdgeDistances distance(image, options.most_strong_share);
+  FeatureImage half; // or a smaller part
+  const FeatureImage* seen = &image;
+  for (int n = 0; n < halvings && std::min(seen->width, seen->height) >= 2; ++n) {
+    half = halved(*seen);
+    seen = &half;
+  }
+  const Size size{seen->width, seen->height};
+  const EdgeDistances distance(*seen, options.most_strong_share);
+  const std::vector<std::uint8_t> sensitivity = sensitivities(*seen, options.sensitivity_floor);
   const int w = image.width;
   const int h = image.height;
   FeatureImage result{w, h, image.channels + 1, {}, image.guides + 1, 0, {}};
-  result.sensitivity = sensitivities(image, options.sensitivity_floor);
+  result.sensitivity.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   result.flat_seam = static_cast<int>(options.flat_seam_share * static_cast<double>(variance_of(image)));
   const int full = static_cast<int>(std::lround(255.0 * std::min(options.weight, 1.0)));
+  const Enlarged across(w, size.width, halvings), down(h, size.height, halvings);
   const auto wide = static_cast<std::size_t>(w);
   result.values.resize(wide * static_cast<std::size_t>(h) * static_cast<std::size_t>(result.channels));
   tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(h), [&](std::size_t y) {
     std::uint8_t* value = result.values.data() + y * wide * static_cast<std::size_t>(result.channels);
     const std::uint8_t* own = image.texel(0, static_cast<int>(y));
-    const std::uint8_t* d = distance.row(y);
+    const Enlarged::Place at = down[y];
+    const auto sensed = [&](std::size_t row) {
+      return sensitivity.data() + row * static_cast<std::size_t>(size.width);
+    };
     for (std::size_t x = 0; x < wide; ++x, own += image.channels) {
       value = std::copy_n(own, image.channels, value);
-      *value++ = static_cast<std::uint8_t>(d[x] * full / farthest_step);
+      const int d = Enlarged::between(across[x], at, distance.row(at.first), distance.row(at.second));
+      *value++ = static_cast<std::uint8_t>(d * full / farthest_step);
+      result.sensitivity[y * wide + x] =
+          static_cast<std::uint8_t>(Enlarged::between(across[x], at, sensed(at.first), sensed(at.second)));
     }
   });
   return result;

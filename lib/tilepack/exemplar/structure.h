@@ -6,7 +6,7 @@
 
 namespace tilepack {
 
-/// How far from an outline the channel of structure tells distances apart, texels.
+/// How far from an outline the channel of structure tells distances apart, texels of the image that it is seen on.
 constexpr int structure_range = 12;
 
 /// Of all texels, the steepest, lie on a strong edge.
@@ -39,9 +39,13 @@ struct StructureOptions {
 /// FeatureImage::flat_seam is set: a cut through the middle of two things of one color is not seen as a step of
 /// color, but as a thing of no shape. Cuts that pay for it run along outlines.
 ///
+/// All of this is seen on the image halved `halvings` times, and brought back: in a photo of 4096² outlines are
+/// those of things that make up its tiles, and not of the grit on them.
+///
 /// FeatureImage::sensitivity is set: a difference that is lost among grit is seen on the face of a stone, so cuts are
 /// drawn to where much changes anyway, as by the gradients of [Kwatra03].
-FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options = {});
+FeatureImage with_structure(const FeatureImage& image, const StructureOptions& options = {},
+                            int halvings = 0);
 
 /// The variance of all channels together, rounded.
 std::int64_t variance_of(const FeatureImage& image);

@@ -1,12 +1,15 @@
 #include "tilepack/seam/seam_repair.h"
 
-#include "tilepack/seam/graph_cut.h"
+#include "tilepack/seam/scaled_cut.h"
 #include "tilepack/seam/window_lookup.h"
 
 #include <algorithm>
 
 namespace tilepack {
 namespace {
+
+// Texels of the sample to one of the last level, up to which windows are as large as the options say.
+constexpr int usual_scale = 4;
 
 struct WorstPatch {
   Rect area;
@@ -84,6 +87,40 @@ PositionMap mismatches_of(const SeamRepairInput& input, const SourceCanvas& canv
   return map;
 }
 
+// Lays the patch unless seams cost more then.
+bool improved(const FeaturePyramid& pyramid, SourceCanvas& canvas, const LaidPatch& patch) {
+  const Rect& a = patch.area;
+  const int x0 = std::max(0, a.x - 1), y0 = std::max(0, a.y - 1);
+  const int x1 = std::min(canvas.width, a.x + a.width + 1), y1 = std::min(canvas.height, a.y + a.height + 1);
+  const auto copied = [&] {
+    SourceCanvas part(x1 - x0, y1 - y0);
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) part.at(x - x0, y - y0) = canvas.at(x, y);
+    return part;
+  };
+  const SourceCanvas before = copied();
+  if (!lay_patch_by_scales(pyramid, canvas, patch)) return false;
+  if (seam_energy(pyramid.front(), copied()) <= seam_energy(pyramid.front(), before)) return true;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) canvas.at(x, y) = before.at(x - x0, y - y0);
+  return false;
+}
+
+// Brings a place of the last level to the first: one level after the other, and through the last two at once.
+SourceTexel at_full_size(const SeamRepairInput& input, const SourceCanvas& canvas, Rect area,
+                         const Overlap& full, SourceTexel place) {
+  constexpr int at_once = 2;
+  constexpr int distance = 2; // the rounding of the level before, and one
+  int level = static_cast<int>(input.pyramid.size()) - 1;
+  for (; level > at_once; --level) {
+    const FeatureImage& next = input.pyramid[static_cast<std::size_t>(level - 1)];
+    place = best_near(next, shown_in(input.pyramid.front(), canvas, area, 1 << (level - 1)),
+                      {2 * place.x, 2 * place.y}, distance);
+  }
+  const int scale = 1 << level;
+  return best_near(input.pyramid.front(), full, {place.x * scale, place.y * scale}, scale);
+}
+
 // Lays the `tries` windows of the sample most like the area over it. Returns whether any texel changed.
 bool replaced(const SeamRepairInput& input, const SeamRepairOptions& options, Rect area,
               SourceCanvas& canvas) {
@@ -100,10 +137,10 @@ bool replaced(const SeamRepairInput& input, const SeamRepairOptions& options, Re
   for (int attempt = 0; attempt < options.tries; ++attempt) {
     SourceTexel found;
     if (!take_best(map, 0, found)) break;
-    const SourceTexel place = best_near(image, full, {found.x * scale, found.y * scale}, scale);
+    const SourceTexel place = at_full_size(input, canvas, area, full, found);
     rule_out(map, place, scale, 2);
     patch.origin = {place.x - area.x, place.y - area.y};
-    changed = lay_patch(image, canvas, patch) || changed;
+    changed = improved(input.pyramid, canvas, patch) || changed;
   }
   return changed;
 }
@@ -115,17 +152,18 @@ void replace_worst_patches(const SeamRepairInput& input, const SeamRepairOptions
   if (options.patches == 0) return;
   const FeatureImage& image = input.pyramid.front();
   const int scale = 1 << (input.pyramid.size() - 1);
-  const int side = options.window / scale * scale;
+  const int window = options.window * std::max(1, scale / usual_scale);
+  const int side = window / scale * scale;
   if (std::min({side, canvas.width, canvas.height}) < 2 * scale ||
       std::min(side, canvas.width) > image.width || std::min(side, canvas.height) > image.height)
     return;
-  WorstPatchFinder finder(canvas, std::max(1, options.window / 2));
+  WorstPatchFinder finder(canvas, std::max(1, window / 2));
   std::vector<std::int64_t> costs = seams_at_texels(image, canvas);
   for (int n = 0; n < options.patches; ++n) {
     const WorstPatch worst = finder.worst(costs);
     if (worst.cost == 0) return;
     const Rect area = around(worst.area, side, canvas.width, canvas.height);
-    finder.rule_out(around(worst.area, options.window / 3, canvas.width, canvas.height));
+    finder.rule_out(around(worst.area, window / 3, canvas.width, canvas.height));
     if (replaced(input, options, area, canvas)) costs = seams_at_texels(image, canvas);
   }
 }

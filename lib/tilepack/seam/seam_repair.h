@@ -11,8 +11,10 @@
 namespace tilepack {
 
 struct SeamRepairOptions {
-  int patches = 12;          ///< replaced in a canvas, the worst first; 0: none
-  int window = 28;           ///< side of the square of new material, texels
+  int patches = 12; ///< replaced in a canvas, the worst first; 0: none
+  /// Side of the square of new material, texels, where the last level is a fourth of the first or larger; where it is
+  /// smaller, what the sample shows is larger, and the square in proportion.
+  int window = 28;
   int tries = 2;             ///< windows of the sample laid at each
   double reuse_weight = 4.0; ///< at f, a window shown as often as the average counts 1 + f times as unlike
 };

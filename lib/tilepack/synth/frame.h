@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tilepack/exemplar/feature_image.h"
+#include "tilepack/exemplar/feature_pyramid.h"
 #include "tilepack/match/period_alignment.h"
 #include "tilepack/seam/graph_cut.h"
 #include "tilepack/seam/source_canvas.h"
@@ -79,9 +79,9 @@ struct Frame {
   std::vector<SourceCanvas> vertical;
 };
 
-/// Cuts the corner patches and strips of `sources` together. In a square of side 2 guard round each lattice
+/// Cuts the corner patches and strips of `sources` together, at the scale of the first level. In a square of side 2 guard round each lattice
 /// point only the corner patch is shown.
-Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& sources);
+Frame joined_frame(const FeaturePyramid& pyramid, const FrameShape& shape, const FrameSources& sources);
 
 /// What a texel of a tile stems from while nothing is chosen for it.
 constexpr SourceTexel no_source{-1, -1};

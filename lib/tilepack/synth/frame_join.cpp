@@ -1,4 +1,4 @@
-#include "tilepack/seam/graph_cut.h"
+#include "tilepack/seam/scaled_cut.h"
 #include "tilepack/synth/frame.h"
 #include "tilepack/synth/strip_axes.h"
 #include "tilepack/synth/strip_join.h"
@@ -9,7 +9,7 @@
 
 namespace tilepack {
 
-SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, const StripAxes& axes,
+SourceCanvas joined_strip(const FeaturePyramid& pyramid, const FrameShape& shape, const StripAxes& axes,
                           SourceTexel place, SourceTexel first, SourceTexel second) {
   SourceCanvas canvas(axes.width(), axes.height());
   for (int y = 0; y < canvas.height; ++y)
@@ -27,12 +27,12 @@ SourceCanvas joined_strip(const FeatureImage& image, const FrameShape& shape, co
         patch.constraints.push_back(from_end < std::max(1, shape.guard) ? CutConstraint::take
                                                                         : CutConstraint::free);
       }
-    lay_patch(image, canvas, patch);
+    lay_patch_by_scales(pyramid, canvas, patch);
   }
   return canvas;
 }
 
-Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const FrameSources& sources) {
+Frame joined_frame(const FeaturePyramid& pyramid, const FrameShape& shape, const FrameSources& sources) {
   Frame frame;
   frame.horizontal.resize(sources.horizontal.size());
   frame.vertical.resize(sources.vertical.size());
@@ -44,7 +44,7 @@ Frame joined_frame(const FeatureImage& image, const FrameShape& shape, const Fra
     const SourceTexel place = horizontal ? sources.horizontal[i] : sources.vertical[i - h];
     const FrameShape::Strip ends = horizontal ? shape.horizontal[i] : shape.vertical[i - h];
     (horizontal ? frame.horizontal[i] : frame.vertical[i - h]) =
-        joined_strip(image, shape, axes, place, corner(ends.first), corner(ends.second));
+        joined_strip(pyramid, shape, axes, place, corner(ends.first), corner(ends.second));
   });
   return frame;
 }

@@ -243,13 +243,14 @@ FrameStart frame_start(const FrameProblem& problem, std::uint64_t start) {
 // cheaper than a search of the frame, and it tells how well the frame can be joined.
 double end_cost(const FrameProblem& problem, const FrameStart& start) {
   const FeatureImage& image = problem.space.small_image();
+  const FeaturePyramid level(image);
   const auto most = static_cast<std::size_t>(problem.options.screened_candidates);
   std::vector<std::int64_t> least(problem.strips(), std::numeric_limits<std::int64_t>::max());
   each_side_by_side(least.size(), [&](std::size_t i) {
     const auto& candidates = start.strips[i].candidates;
     const auto [first, second] = patches_at(problem, start.corners, i);
     for (std::size_t c = 0; c < std::min(most, candidates.size()); ++c)
-      least[i] = std::min(least[i], seam_energy(image, joined_strip(image, problem.shape(), problem.axes(i),
+      least[i] = std::min(least[i], seam_energy(image, joined_strip(level, problem.shape(), problem.axes(i),
                                                                     candidates[c].place, first, second)));
   });
   double total = 0.0;

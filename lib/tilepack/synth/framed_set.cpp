@@ -233,7 +233,8 @@ SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
   const FramedSetSettings settings =
       fitted(wanted_settings, object_scale(sample.features), variance_of(sample.features), options.tile_size,
              PeriodAlignment(sample.periods, options.tile_size));
-  const FeatureImage image = with_structure(sample.features, settings.structure);
+  const FeatureImage image =
+      with_structure(sample.features, settings.structure, halvings_to_usual(options.tile_size));
   FrameShape shape = frame_shape(options, sample.periods, settings.reach, settings.corner_reach);
   if (shape.alignment.lattice())
     shape.alignment = shape.alignment.through(cheapest_lines(image, sample.periods));
@@ -241,7 +242,7 @@ SourceMap framed_set(const SampleAnalysis& sample, const SynthOptions& options,
                           settings.most_searched_texels);
   const MatchLevels levels(space.pyramid, settings);
   const FrameSources sources = searched_frame(space, settings.frame, settings.refine, progress);
-  Frame frame = joined_frame(space.image(), shape, sources);
+  Frame frame = joined_frame(space.pyramid, shape, sources);
   both_side_by_side(
       [&] { repair_strips(space, levels, sources, settings, Direction::horizontal, frame.horizontal); },
       [&] { repair_strips(space, levels, sources, settings, Direction::vertical, frame.vertical); });

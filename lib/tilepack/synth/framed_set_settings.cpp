@@ -39,6 +39,8 @@ constexpr std::array<Effort, 10> efforts{{
 constexpr int least_interior_starts = 4;
 constexpr int least_interior_rounds = 2;
 
+constexpr int usual_side = 128; // of a tile, texels, for which weights and thresholds in texels were set
+
 constexpr int repair_window = 28;           // texels (q)
 constexpr double repair_reuse_weight = 4.0; // (q)
 constexpr double match_reuse_weight = 0.2;  // (q)
@@ -70,6 +72,12 @@ FramedSetSettings settings_for(int effort, std::uint64_t seed) {
   return settings;
 }
 
+int halvings_to_usual(Size tile) {
+  int halvings = 0;
+  while (std::min(tile.width, tile.height) >> halvings >= 2 * usual_side) ++halvings;
+  return halvings;
+}
+
 FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::int64_t variance, Size tile,
                          const PeriodAlignment& alignment) {
   const double side = std::min(tile.width, tile.height);
@@ -87,7 +95,8 @@ FramedSetSettings fitted(FramedSetSettings settings, double object_scale, std::i
     // bricks in two than go round them.
     settings.interiors.bias = std::max<std::int64_t>(
         settings.interiors.bias,
-        static_cast<std::int64_t>(settings.bias_of_variance * static_cast<double>(variance)));
+        static_cast<std::int64_t>(settings.bias_of_variance * static_cast<double>(variance)) >>
+            halvings_to_usual(tile));
   }
   const auto corner_reach = [&](double least, double reach) {
     return std::max(least, reach * settings.corner_reach_of_reach);

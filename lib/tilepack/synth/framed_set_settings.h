@@ -154,8 +154,9 @@ struct FramedSetSettings {
   /// so that cuts between the two do not meet those to the inside. (q)
   ReachShares corner_reach = 0.1875;
   double corner_reach_of_reach = 1.07; ///< and at least so many times the reach: 3/8 becomes 0.4 (j)
-  /// InteriorOptions::bias as a share of the sample's variance (variance_of): more of it shows more of the sample, at
-  /// the price of hairlines. Not where tiles hold whole periods along both axes. (j)
+  /// InteriorOptions::bias as a share of the sample's variance (variance_of), for tiles of less than 256 texels; half of it
+  /// for twice as large ones and so on, for it is paid by the texel, and a cut by its length. More of it shows more of the
+  /// sample, at the price of hairlines. Not where tiles hold whole periods along both axes. (j)
   double bias_of_variance = 0.08;
   /// SetRepairOptions::price as a share of that bias: what tiles share should not grow where little is mended. (j)
   double price_of_bias = 1.0;
@@ -180,6 +181,10 @@ struct FramedSetSettings {
 /// The settings of an effort of 0..9: more of it means more starts, more places tried, more patches replaced and
 /// more passes of PatchMatch.
 FramedSetSettings settings_for(int effort, std::uint64_t seed);
+
+/// How often a tile and its sample are halved until its smaller side is less than 256 texels: what is counted in texels
+/// was set for tiles of 128 to 160, and means the same there.
+int halvings_to_usual(Size tile);
 
 /// The settings for a sample of this object_scale() and variance_of(), and this tile size: strips reach so far that
 /// a cut can go round what the sample shows, and cuts are drawn outward so strongly that insides show as much as

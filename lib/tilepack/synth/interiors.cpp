@@ -4,6 +4,7 @@
 #include "tilepack/numeric/random.h"
 #include "tilepack/numeric/side_by_side.h"
 #include "tilepack/seam/graph_cut.h"
+#include "tilepack/seam/scaled_cut.h"
 #include "tilepack/synth/inside_cuts.h"
 #include "tilepack/synth/strip_axes.h"
 #include "tilepack/synth/tile_levels.h"
@@ -59,7 +60,7 @@ Rect shown_part(const FrameShape& shape, SourceTexel strip, Direction direction)
 }
 
 void set_reuse_weights(const Saliency& saliency, double saliency_weight, int scale, UseCounts& counts) {
-  constexpr int side = Saliency::side;
+  const int side = saliency.side;
   for (int y = 0; y < saliency.high; ++y)
     for (int x = 0; x < saliency.wide; ++x) {
       const double excess = saliency.at(x, y) - salient_deviation;
@@ -247,29 +248,6 @@ void refine(const SearchSpace& space, const PeriodAlignment& alignment, const st
       places[id] = alignment.nearest(places[id], {0, 0},
                                      {space.image().width - tile.width, space.image().height - tile.height});
   });
-}
-
-// What a cut settles for a cut `factor` times as fine, on a canvas of size `fine`: all but a band round its line.
-std::vector<CutConstraint> settled_by(const std::vector<std::uint8_t>& taken, Size coarse, Size fine,
-                                      int factor) {
-  const int w = coarse.width, h = coarse.height;
-  const auto takes = [&](int x, int y) {
-    return taken[static_cast<std::size_t>(std::clamp(y, 0, h - 1)) * static_cast<std::size_t>(w) +
-                 static_cast<std::size_t>(std::clamp(x, 0, w - 1))] != 0;
-  };
-  std::vector<CutConstraint> settled(
-      static_cast<std::size_t>(fine.width) * static_cast<std::size_t>(fine.height), CutConstraint::free);
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      int neighbours = 0;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) neighbours += takes(x + dx, y + dy);
-      if (neighbours > 0 && neighbours < 9) continue;
-      for (int j = 0; j < factor; ++j)
-        std::fill_n(settled.begin() + static_cast<std::ptrdiff_t>(y * factor + j) * fine.width + x * factor,
-                    factor, neighbours > 0 ? CutConstraint::take : CutConstraint::keep);
-    }
-  return settled;
 }
 
 // What a cut at the scale of the search settles for the cut at full size.

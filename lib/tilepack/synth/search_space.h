@@ -11,11 +11,6 @@
 
 namespace tilepack {
 
-/// The scale, texels of the sample to one, from which a cut's line is brought to full size at once: round it a band of
-/// three of its texels is free, which is room enough. From coarser ones bands would be so wide that cuts take longer
-/// than all else, and places would be too many to compare, so both come down scale by scale.
-constexpr int widest_step = 8;
-
 /// Where the parts of a framed set are looked for: the sample, at full size and at that of the search, and the
 /// shape of the frame at both. `sample` must outlive it.
 struct SearchSpace {

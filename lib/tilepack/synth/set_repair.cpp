@@ -1,5 +1,6 @@
 #include "tilepack/synth/set_repair.h"
 
+#include "tilepack/seam/scaled_cut.h"
 #include "tilepack/seam/window_lookup.h"
 #include "tilepack/synth/shared_window.h"
 
