@@ -2,6 +2,7 @@
 
 #include "tilepack/exemplar/structure.h"
 #include "tilepack/seam/source_canvas.h"
+#include "tilepack/synth/framed_set_settings.h"
 #include "tilepack/tileset/border_colors.h"
 
 #include <tbb/parallel_for.h>
@@ -203,7 +204,27 @@ std::vector<TilePlace> strongest(std::vector<TilePlace> places, std::size_t coun
 
 } // namespace
 
-ToneBreaks tone_breaks(const FeatureImage& image, const SourceMap& sources) {
+namespace {
+
+// One texel for scale × scale, of those in their middle.
+SourceMap shrunk(const SourceMap& sources, int scale) {
+  const Size full = sources.tile_size;
+  SourceMap small{{}, sources.colors, sources.tiles, {}, sources.guard};
+  small.tile_size = {full.width / scale, full.height / scale};
+  for (std::size_t t = 0; t < sources.texels.size(); ++t) {
+    small.texels.emplace_back();
+    for (int y = 0; y < small.tile_size.height; ++y)
+      for (int x = 0; x < small.tile_size.width; ++x) {
+        const SourceTexel s = sources.texels[t][static_cast<std::size_t>(y * scale + scale / 2) *
+                                                    static_cast<std::size_t>(full.width) +
+                                                static_cast<std::size_t>(x * scale + scale / 2)];
+        small.texels[t].push_back({s.x / scale, s.y / scale});
+      }
+  }
+  return small;
+}
+
+ToneBreaks breaks_as_seen(const FeatureImage& image, const SourceMap& sources) {
   const Size tile = sources.tile_size;
   ToneBreaks result;
   if (std::min(tile.width, tile.height) < 2 * beyond) return result;
@@ -230,6 +251,25 @@ ToneBreaks tone_breaks(const FeatureImage& image, const SourceMap& sources) {
   }
   result.share = std::round(1e4 * length / (static_cast<double>(tiles) * (tile.width + tile.height))) / 1e4;
   result.worst = strongest(std::move(places), most_breaks);
+  return result;
+}
+
+} // namespace
+
+ToneBreaks tone_breaks(const FeatureImage& image, const SourceMap& sources) {
+  const int halvings = halvings_to_usual(sources.tile_size);
+  if (halvings == 0) return breaks_as_seen(image, sources);
+  FeatureImage small = halved(image);
+  for (int n = 1; n < halvings; ++n) small = halved(small);
+  const int scale = 1 << halvings;
+  SourceMap seen = shrunk(sources, scale);
+  for (auto& texels : seen.texels) // the last ones of a sample that is no multiple
+    for (SourceTexel& s : texels) s = {std::min(s.x, small.width - 1), std::min(s.y, small.height - 1)};
+  ToneBreaks result = breaks_as_seen(small, seen);
+  for (TilePlace& place : result.worst) {
+    Rect& a = place.area;
+    a = {a.x * scale, a.y * scale, a.width * scale, a.height * scale};
+  }
   return result;
 }
 

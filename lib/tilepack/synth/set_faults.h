@@ -20,7 +20,8 @@ struct TilePlace {
 ///
 /// A line of 20 texels, north-south or east-west, that has a cut within 2 texels of it nearly all along is a break if
 /// the mean colors of what lies 12 texels deep on its two sides differ more than 19 of 20 such lines of the sample do,
-/// and a quarter beyond, and by a fifth of the sample's standard deviation or more. Borders of tiles are looked at with a tile beyond them that may lie there.
+/// and a quarter beyond, and by a fifth of the sample's standard deviation or more. Borders of tiles are looked at with a
+/// tile beyond them that may lie there. Texels are those of tiles halved until they have less than 256 (halvings_to_usual).
 struct ToneBreaks {
   bool looked = false; ///< tiles are large enough for such lines, 30 texels or more a side
   double share = 0;    ///< length of all breaks over that of all borders of tiles
