@@ -1,3 +1,4 @@
+#include "support/enlarged.h"
 #include "support/samples.h"
 
 #include "tilepack/exemplar/object_scale.h"
@@ -41,4 +42,19 @@ TEST_CASE("a flat sample has the least scale, and no sample more than the longes
   for (int y = 0; y < 64; ++y)
     for (int x = 128; x < 256; ++x) halves.texel(x, y)[0] = 1.0f;
   CHECK(object_scale(features(halves)) <= largest_object_scale({256, 64}));
+}
+
+TEST_CASE("a large sample has the scale of its things, however many texels they are wide") {
+  const Image small = blobs(520, 512, 9, 1, 7);
+  const double scale = object_scale(features(small));
+  CHECK(object_scale(features(testing::enlarged(small, 2))) == Approx(2 * scale).epsilon(0.05));
+  CHECK(object_scale(features(testing::enlarged(small, 4))) == Approx(4 * scale).epsilon(0.05));
+  CHECK(4 * scale > largest_object_scale({520, 512})); // which no look at full size can tell
+  CHECK(largest_object_scale({2080, 2048}) == 4 * largest_object_scale({520, 512}));
+  CHECK(largest_object_scale({4000, 1023}) == largest_object_scale({520, 512}));
+}
+
+TEST_CASE("grain stays grain, however large the sample") {
+  const double scale = object_scale(features(blobs(256, 256, 4, 1, 1)));
+  CHECK(object_scale(features(blobs(1024, 1024, 4, 1, 1))) == Approx(scale).epsilon(0.1));
 }

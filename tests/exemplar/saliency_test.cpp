@@ -1,3 +1,4 @@
+#include "support/enlarged.h"
 #include "support/samples.h"
 
 #include "tilepack/exemplar/saliency.h"
@@ -82,4 +83,18 @@ TEST_CASE("what the eye would find again is shown by few tiles") {
   CHECK(with < 0.5 * without);
   CHECK(with / 24 < 0.16);
   CHECK(with < 0.6 * without);
+}
+
+TEST_CASE("what stands out in a large sample is as many texels larger") {
+  const Image small = with_red_spot(512, 96, 160, 16);
+  const Saliency cells = saliency_of(features(small)),
+                 large = saliency_of(features(testing::enlarged(small, 2)));
+  CHECK(cells.side == 16);
+  REQUIRE(large.side == 32);
+  REQUIRE((large.wide == cells.wide && large.high == cells.high));
+  const auto first = [](const Saliency& s) {
+    return std::max_element(s.values.begin(), s.values.end()) - s.values.begin();
+  };
+  CHECK(first(large) == first(cells));
+  CHECK(excess_in(large, {192, 320, 32, 32}) == Approx(excess_in(cells, {96, 160, 16, 16})).epsilon(0.05));
 }

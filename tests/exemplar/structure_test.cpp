@@ -1,3 +1,4 @@
+#include "support/enlarged.h"
 #include "support/samples.h"
 
 #include "tilepack/exemplar/structure.h"
@@ -141,4 +142,24 @@ TEST_CASE("distances and sensitivities are those of the definition, for images o
     }
   CHECK(jumps == 0);
   CHECK(edges > 0);
+}
+
+TEST_CASE("structure is seen on a halved image, and brought back") {
+  const Image small = testing::blobs(96, 80, 3, 1, 5);
+  const FeatureImage plain = testing::features(small), large = testing::features(testing::enlarged(small, 4));
+  const FeatureImage once = with_structure(plain), seen = with_structure(large, {}, 2);
+  REQUIRE((seen.width == 384 && seen.height == 320 && seen.channels == 2));
+  double off = 0;
+  for (int y = 0; y < small.height(); ++y)
+    for (int x = 0; x < small.width(); ++x) {
+      // Round the middle of what was one texel, within what bilinear weights may take from its neighbours.
+      const int now = seen.texel(4 * x + 2, 4 * y + 2)[1], then = once.texel(x, y)[1];
+      CHECK(std::abs(now - then) <= 2 * 255 / structure_range);
+      off += std::abs(now - then);
+      CHECK(seen.texel(4 * x + 2, 4 * y + 2)[0] == large.texel(4 * x + 2, 4 * y + 2)[0]);
+    }
+  CHECK(off / (small.width() * small.height()) < 6);
+  CHECK(with_structure(plain, {}, 0).values == once.values);
+  CHECK(with_structure(plain, {}, 0).sensitivity == once.sensitivity);
+  CHECK(with_structure(plain, {}, 20).values.size() == once.values.size()); // no more than can be halved
 }

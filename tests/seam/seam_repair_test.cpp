@@ -1,4 +1,5 @@
 #include "seam/seamed_canvases.h"
+#include "support/enlarged.h"
 
 #include "tilepack/seam/seam_repair.h"
 
@@ -129,4 +130,27 @@ TEST_CASE("repair takes windows that are not shown yet, where they are as like")
     }
   CHECK(fresh > 100);
   CHECK(fresh > 4 * shown_before);
+}
+
+TEST_CASE("repair of large things replaces large squares, and seam energy still falls") {
+  const FeatureImage image = features(testing::enlarged(blobs(64, 64), 8));
+  FeaturePyramid pyramid(image);
+  while (pyramid.size() < 5) pyramid.add_half();
+  const PatchSearch search(pyramid.back());
+  const SourceCanvas start = with_seam({384, 320}, 192, {40, 50});
+  const std::vector<std::uint8_t> fixed(start.texels.size());
+  SourceCanvas canvas = start;
+  SeamRepairOptions options;
+  options.patches = 1;
+  replace_worst_patches({pyramid, search, unused(pyramid.back()), {}, fixed}, options, canvas);
+  CHECK(seam_energy(image, canvas) < seam_energy(image, start));
+  int west = 384, east = 0;
+  for (int y = 0; y < 320; ++y)
+    for (int x = 0; x < 384; ++x)
+      if (canvas.at(x, y) != start.at(x, y)) {
+        west = std::min(west, x);
+        east = std::max(east, x);
+      }
+  CHECK(east - west >= options.window); // four times that may be replaced
+  CHECK(east - west < 4 * options.window);
 }

@@ -57,3 +57,13 @@ TEST_CASE("no effort does less than the one before it") {
     CHECK(more.coarse_match.passes == 0);
   }
 }
+
+TEST_CASE("what is paid by the texel is less for larger tiles, and small ones have it as it is") {
+  CHECK(halvings_to_usual({32, 32}) == 0);
+  CHECK(halvings_to_usual({255, 400}) == 0);
+  CHECK(halvings_to_usual({256, 400}) == 1);
+  CHECK(halvings_to_usual({2560, 1280}) == 3);
+  const FramedSetSettings plain = settings_for(5, 1);
+  CHECK(fitted(plain, 5.0, 50'000, {160, 160}, {}).interiors.bias == 4000);
+  CHECK(fitted(plain, 5.0, 50'000, {1280, 1280}, {}).interiors.bias == 500);
+}

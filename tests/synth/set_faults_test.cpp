@@ -1,3 +1,4 @@
+#include "support/enlarged.h"
 #include "support/samples.h"
 
 #include "tilepack/synth/set_faults.h"
@@ -57,4 +58,26 @@ TEST_CASE("the dearest places are where cuts are seen, apart", "[set_faults]") {
   }
   CHECK(places[0].strength >= places[1].strength);
   CHECK(std::abs(places[0].area.y - places[1].area.y) >= 16);
+}
+
+TEST_CASE("tones that end in lines are found at the scale of tiles, and told in their texels",
+          "[set_faults]") {
+  // The same twice: tiles of 128 texels, and of 256 with everything twice as large.
+  const auto tile_of = [](int times) {
+    SourceMap map{{128 * times, 128 * times}, {1, 1, 0}, std::vector<EdgeTile>(1), {{}}, 0};
+    for (int y = 0; y < 128 * times; ++y)
+      for (int x = 0; x < 128 * times; ++x)
+        map.texels[0].push_back({(x < 64 * times ? 4 * times : 120 * times) + x, y});
+    return map;
+  };
+  Image ramp(256, 128, 1);
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 256; ++x)
+      ramp.texel(x, y)[0] = (40.0f + static_cast<float>(x * 160 / 256 + (x * 7 + y * 13) % 5)) / 255.0f;
+  const ToneBreaks small = tone_breaks(features(ramp), tile_of(1));
+  const ToneBreaks large = tone_breaks(features(enlarged(ramp, 2)), tile_of(2));
+  REQUIRE(small.share > 0.2);
+  CHECK(large.share == Approx(small.share).epsilon(0.1));
+  REQUIRE_FALSE(large.worst.empty());
+  CHECK(large.worst.front().area.width == 2 * small.worst.front().area.width);
 }
