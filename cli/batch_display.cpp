@@ -48,6 +48,12 @@ std::string one_line(const JsonValue& value) {
   return text;
 }
 
+std::vector<std::string> spelled_all(const std::vector<std::string>& marked) {
+  std::vector<std::string> texts;
+  for (const std::string& text : marked) texts.push_back(spelled(text, FieldSpelling::json));
+  return texts;
+}
+
 } // namespace
 
 BatchDisplay::BatchDisplay(Console& told, const Manifest& of, LogFormat as, bool tells_all)
@@ -116,6 +122,11 @@ void BatchDisplay::ended(const EntryResult& result) {
       value["message"] = message;
       value["code"] = exit_code(result.kind);
     }
+    if (!result.story.verdict.empty()) {
+      value["verdict"] = result.story.verdict;
+      value["remarks"] = spelled_all(result.story.remarks);
+    }
+    if (!result.story.notes.empty()) value["notes"] = spelled_all(result.story.notes);
     print_json(one_line(value));
   } else if (result.end == EntryEnd::failed) {
     erase();
@@ -128,10 +139,24 @@ void BatchDisplay::ended(const EntryResult& result) {
     if (result.end == EntryEnd::current)
       console.note(fmt::format("{}: current", name(result.entry)));
     else
-      console.note(fmt::format("{}: {} in {:.1f} s ({})", name(result.entry), name_of(result.end),
-                               result.seconds, fmt::join(result.reasons, ", ")));
+      tell_made(result);
   }
   draw(false);
+}
+
+// "sand: built in 1.1 s (sample changed): fair", and why if that is asked for.
+void BatchDisplay::tell_made(const EntryResult& result) {
+  std::string line = fmt::format("{}: {} in {:.1f} s ({})", name(result.entry), name_of(result.end),
+                                 result.seconds, fmt::join(result.reasons, ", "));
+  const EntryStory& story = result.story;
+  if (!story.remarks.empty()) {
+    line += fmt::format(": {}", story.verdict);
+    if (verbose) line += fmt::format(" ({})", spelled(story.remarks.front(), FieldSpelling::json));
+  }
+  console.note(line);
+  if (verbose)
+    for (const std::string& note : story.notes)
+      console.note(fmt::format("{}: {}", name(result.entry), spelled(note, FieldSpelling::json)));
 }
 
 void BatchDisplay::warned(std::size_t entry, std::string_view message) {
@@ -152,8 +177,9 @@ void BatchDisplay::summary(const std::vector<EntryResult>& results) {
     print_json(one_line(value));
     return;
   }
+  if (console.quiet) return; // errors were told
   for (const EntryResult& result : results) {
-    if (result.end != EntryEnd::failed) continue;
+    if (result.end != EntryEnd::failed || results.size() == 1) continue;
     console.print(fmt::format("failed: {}: {}\n", printable(name(result.entry)),
                               printable(spelled(result.message, FieldSpelling::json))));
   }

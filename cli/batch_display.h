@@ -32,7 +32,7 @@ public:
   void ended(const EntryResult& result);
   void warned(std::size_t entry, std::string_view message);
 
-  /// At the end: the counts, and each failure with its message.
+  /// At the end, unless quiet: the counts, and each failure of several entries with its message.
   void summary(const std::vector<EntryResult>& results);
 
 private:
@@ -45,6 +45,7 @@ private:
   double seconds() const;
   void erase();
   void draw(bool now);
+  void tell_made(const EntryResult& result);
   void print_json(const std::string& line);
   std::string total_line() const;
 

@@ -22,19 +22,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void make_bake(const BakeJob& job, const Progress& progress) {
+EntryStory make_bake(const BakeJob& job, const Progress& progress) {
   BakeSummary story{title_of(job), {}, {}};
+  EntryStory told;
   JobWatch watch;
   watch.progress = [&](std::string_view, std::string_view stage, double done) {
     report(progress, stage, done);
   };
+  watch.note = [&](std::string_view line) { told.notes.emplace_back(line); };
   std::string remark; // of a verdict that refused the set
   JudgingWatch judging;
+  judging.note = watch.note;
   judging.refused = [&](const BakeFacts& facts) {
     const auto remarks = bake_verdict(facts).remarks;
     if (!remarks.empty()) remark = spelled(remarks.front().text, FieldSpelling::json);
   };
-  judge(job, watch, story.facts, !job.report.empty(), judging);
+  judge(job, watch, story.facts, true, judging);
   watch.page = [&](const BakedJob& baked) {
     story.stages = baked.stages;
     return bake_page(story, baked.made, baked.samples);
@@ -45,49 +48,80 @@ void make_bake(const BakeJob& job, const Progress& progress) {
     if (remark.empty()) throw;
     throw Error(error.kind(), job.place, fmt::format("{} ({})", error.what_happened(), remark));
   }
+  const BakeVerdict verdict = bake_verdict(story.facts);
+  told.verdict = name_of(verdict.grade);
+  for (const BakeRemark& one : verdict.remarks)
+    if (one.grade != Grade::good) told.remarks.push_back(one.text);
+  return told;
 }
 
-// Runs the words of a command line in this process; what it prints is added to `data`, also if it throws.
-void run_words(const std::vector<std::string>& words, std::string& data, const Progress& progress) {
-  const auto verbs = verb_table();
-  const auto verb =
-      std::find_if(verbs.begin(), verbs.end(), [&](const Verb& v) { return v.name == words.front(); });
-  if (verb == verbs.end()) throw Error(ErrorKind::internal, "", "there is no verb " + words.front());
-  Console console("tilepack " + verb->name, data, progress);
-  Options options({"tilepack " + verb->name, verb->summary, verb->example, verb->more});
-  options.flag("-q,--quiet", console.quiet, "");
-  const Action action = verb->declare(options);
-  options.parse({words.begin() + 1, words.end()});
-  if (const int code = action(console); code != 0)
-    throw Error(static_cast<ErrorKind>(code - 1), "", fmt::format("ended with exit code {}", code));
-}
+// The verb of an entry with its words, ready to run. What it prints is added to `data`, also if it throws.
+class WordsOfEntry {
+public:
+  WordsOfEntry(const Manifest& manifest, const BatchEntry& entry, std::string& data, const Progress& progress)
+      : verb(verb_of(entry)), console("tilepack " + verb.name, data, notes, progress),
+        options({"tilepack " + verb.name, verb.summary, verb.example, verb.more}) {
+    options.flag("-q,--quiet", console.quiet, "");
+    action = verb.declare(options);
+    check_option_names(manifest, entry, options);
+    const std::vector<std::string> words = command_of(entry);
+    try {
+      options.parse({words.begin() + 1, words.end()});
+    } catch (const Error& error) {
+      throw in_manifest(manifest, entry, options, error);
+    }
+  }
+
+  int run() { return action(console); }
+  const Options& known() const { return options; }
+
+  std::vector<std::string> notes;
+
+private:
+  static const Verb& verb_of(const BatchEntry& entry) {
+    const auto verbs = verb_table();
+    const auto verb =
+        std::find_if(verbs.begin(), verbs.end(), [&](const Verb& v) { return v.name == entry.verb->name; });
+    if (verb == verbs.end())
+      throw Error(ErrorKind::internal, "", "there is no verb " + std::string(entry.verb->name));
+    return *verb;
+  }
+
+  const Verb& verb;
+  Console console;
+  Options options;
+  Action action;
+};
 
 } // namespace
 
-void make_entry(const Manifest& manifest, const BatchEntry& entry, const Progress& progress) {
+void check_entry_words(const Manifest& manifest, const BatchEntry& entry) {
+  if (entry.verb->name == "bake") return; // its options were looked at with its inputs
+  std::string unused;
+  const WordsOfEntry checked(manifest, entry, unused, {});
+}
+
+EntryStory make_entry(const Manifest& manifest, const BatchEntry& entry, const Progress& progress) {
   fs::create_directories(fs::absolute(entry.output).parent_path());
-  if (entry.verb->name == "bake") {
-    make_bake(bake_job_of(manifest, entry), progress);
-    return;
-  }
+  if (entry.verb->name == "bake") return make_bake(bake_job_of(manifest, entry), progress);
   std::string data;
   const bool is_printed = entry.verb->output == BatchOutput::printed;
+  WordsOfEntry words(manifest, entry, data, progress);
   try {
-    run_words(command_of(entry), data, progress);
+    if (const int code = words.run(); code != 0)
+      throw Error(static_cast<ErrorKind>(code - 1), "", fmt::format("ended with exit code {}", code));
   } catch (const Error& error) {
-    std::string what = error.what_happened();
-    if (error.kind() == ErrorKind::check_failed && is_printed) {
-      // What it found is worth reading, but no output: without a record it is checked again.
-      std::error_code unused;
-      fs::remove(side_file_of(entry.output, false), unused);
-      write_text_file(entry.output, data);
-      what += fmt::format(" (what it printed is in {})", entry.output);
-    }
-    const ErrorKind kind = error.kind() == ErrorKind::usage ? ErrorKind::invalid_content : error.kind();
-    throw Error(kind, place_in(manifest, entry.at),
-                error.where().empty() ? what : error.where() + ": " + what);
+    const Error told = in_manifest(manifest, entry, words.known(), error);
+    if (error.kind() != ErrorKind::check_failed || !is_printed) throw told;
+    // What it found is worth reading, but no output: without a record it is checked again.
+    std::error_code unused;
+    fs::remove(side_file_of(entry.output, false), unused);
+    write_text_file(entry.output, data);
+    throw Error(told.kind(), told.where(),
+                fmt::format("{} (what it printed is in {})", told.what_happened(), entry.output));
   }
   if (is_printed) write_text_file(entry.output, data);
+  return {"", {}, words.notes};
 }
 
 } // namespace tilepack::cli

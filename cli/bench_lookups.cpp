@@ -70,7 +70,7 @@ int bench_lookups_of(const LookupBenchArguments& a, Console& console) {
   outputs.commit(console.progress());
   console.print(a.format == "json"  ? bench_json(bench)
                 : a.format == "csv" ? bench_csv(bench)
-                                    : bench_text(bench));
+                                    : bench_text(bench, a.targets));
   return 0;
 }
 

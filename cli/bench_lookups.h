@@ -14,6 +14,7 @@ struct LookupBenchArguments {
   int rounds = 9;              ///< medians are taken over so many
   int lookups = 4096;          ///< places a zone and level, for the errors of mips
   bool quick = false;          ///< one round, and nothing stored
+  bool targets = false;        ///< also what the project holds itself to
   int jobs = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <unistd.h>
@@ -19,8 +20,9 @@ Console::Console(std::string command) : command_name(std::move(command)) {
   colored = terminal && (no_color == nullptr || *no_color == '\0');
 }
 
-Console::Console(std::string command, std::string& data, Progress onward)
-    : quiet(true), command_name(std::move(command)), kept(&data), told(std::move(onward)) {}
+Console::Console(std::string command, std::string& data, std::vector<std::string>& notes, Progress onward)
+    : quiet(true), command_name(std::move(command)), kept(&data), kept_notes(&notes),
+      told(std::move(onward)) {}
 
 Console::~Console() {
   erase_progress();
@@ -34,7 +36,9 @@ void Console::print(std::string_view data, std::string_view in_place) {
   erase_progress();
   if (std::fwrite(data.data(), 1, data.size(), stdout) != data.size() || std::fflush(stdout) != 0)
     throw Error(ErrorKind::cannot_write, "stdout",
-                fmt::format("the output could not be written; is the disk full?{}{}{}",
+                fmt::format("{}{}{}{}",
+                            errno == EBADF ? "is closed; open it (> /dev/null), or have nothing printed (-q)."
+                                           : "the output could not be written; is the disk full?",
                             in_place.empty() ? "" : " ", in_place,
                             in_place.empty() ? "" : " is whole and in place"));
 }
@@ -44,10 +48,12 @@ void Console::made(std::string_view line, std::string_view in_place) {
 }
 
 void Console::note(std::string_view message) {
+  if (kept_notes) kept_notes->emplace_back(message);
   if (!quiet) line("", "", message);
 }
 
 void Console::warn(std::string_view message) {
+  if (kept_notes) kept_notes->emplace_back(message);
   if (!quiet) line("warning", "\033[33m", message);
 }
 

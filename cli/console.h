@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tilepack::cli {
 
@@ -17,9 +18,9 @@ public:
   /// `command` is what messages begin with: "tilepack bake".
   explicit Console(std::string command);
 
-  /// For a verb that another one runs: data goes into `data`, which must outlive it, notes and warnings nowhere,
-  /// and progress to `onward`.
-  Console(std::string command, std::string& data, Progress onward);
+  /// For a verb that another one runs: data goes into `data`, notes and warnings to `notes`, which must both outlive
+  /// it, and progress to `onward`.
+  Console(std::string command, std::string& data, std::vector<std::string>& notes, Progress onward);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -53,9 +54,10 @@ private:
   std::string command_name;
   bool terminal = false;
   bool colored = false;
-  std::string drawn;           // the progress line on screen, empty if none
-  std::string* kept = nullptr; // data, if it is for another verb
-  Progress told;               // the same of progress
+  std::string drawn;                              // the progress line on screen, empty if none
+  std::string* kept = nullptr;                    // data, if it is for another verb
+  std::vector<std::string>* kept_notes = nullptr; // the same of notes
+  Progress told;                                  // and of progress
 };
 
 } // namespace tilepack::cli

@@ -15,11 +15,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <fcntl.h>
 #include <filesystem>
 #include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 #include <vector>
 
 namespace tilepack::cli {
@@ -65,6 +67,9 @@ std::string meant_by_file(const std::string& name) {
 
 const Verb& verb_named(const std::string& name) {
   if (const Verb* verb = find_verb(name)) return *verb;
+  if (name == "version" || name == "-v" || name == "-V")
+    throw Error(ErrorKind::usage, "",
+                fmt::format("there is no verb '{}'; `tilepack --version` prints the version", name));
   if (const std::string meant = meant_by_file(name); !meant.empty()) throw Error(ErrorKind::usage, "", meant);
   std::vector<std::string> known{"help"};
   for (const Verb& verb : verb_table()) known.push_back(verb.name);
@@ -128,12 +133,13 @@ int run(const std::vector<std::string>& arguments, Console& console) {
   }
   if (first == "help" || first == "--help" || first == "-h") {
     if (arguments.size() > 1 && print_made(arguments, console)) return 0;
-    if (arguments.size() < 2)
+    if (arguments.size() < 2 || arguments[1] == "--help" || arguments[1] == "-h")
       console.print(listing());
     else
       return run_verb(verb_named(arguments[1]), {"--help"}, console);
     return 0;
   }
+  if (first == "-v" || first == "-V") verb_named(first);
   if (first.front() == '-') refuse_option_first(arguments);
   return run_verb(verb_named(first), {arguments.begin() + 1, arguments.end()}, console);
 }
@@ -195,10 +201,19 @@ int guarded_run(const std::vector<std::string>& arguments) {
   return -1;
 }
 
+// A stream that was closed would be the next file that is opened, and what is printed would go into that. In place of
+// stdout stands what can't be written, so that what was to be printed is missed.
+void hold_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 } // namespace
 } // namespace tilepack::cli
 
 int main(int argc, char** argv) {
+  tilepack::cli::hold_closed_streams();
   // OpenImageIO, where it is loaded, brings OpenBLAS, which starts a thread a core then. Each takes 128 MiB of
   // address space, and where it gets none tries for ever; where a thread is refused, it sends the program a SIGINT.
   // Nothing here multiplies matrices with it, but it can only be told by its environment.

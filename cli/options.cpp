@@ -152,7 +152,8 @@ public:
   // CLI11 reports a missing argument before an unknown option; but what it could not place tells more, since
   // a mistyped option is what leaves arguments out of place.
   std::string explained(const CLI::ParseError& error) const {
-    const std::vector<std::string> extras = app.remaining();
+    std::vector<std::string> extras = app.remaining();
+    extras.erase(std::remove(extras.begin(), extras.end(), "--"), extras.end()); // ends the options
     const auto flag = std::find_if(extras.begin(), extras.end(), [](const std::string& argument) {
       return argument.size() > 1 && argument.front() == '-';
     });
@@ -177,6 +178,15 @@ public:
       const std::string name = what.substr(0, what.find(':'));
       if (const CLI::Option* option = app.get_option_no_throw(name))
         return fmt::format("{}: its value is missing; write {} {}", name, name, option->get_type_name());
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+      const std::string what = error.what(); // "--lang is required"
+      const CLI::Option* option = app.get_option_no_throw(what.substr(0, what.find(' ')));
+      if (option != nullptr && !option->get_positional())
+        return fmt::format("{}: add {} {}", what,
+                           option->get_snames().empty() ? "--" + option->get_lnames().front()
+                                                        : "-" + option->get_snames().front(),
+                           option->get_type_name());
     }
     return error.what();
   }
@@ -304,6 +314,10 @@ bool Options::parse(const std::vector<std::string>& arguments) {
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorKind::usage, "", parser->explained(error));
   }
+  const CLI::Option* output = parser->app.get_option_no_throw("--output");
+  if (output != nullptr && output->count() > 0 && output->results().back().empty())
+    throw Error(ErrorKind::usage, "--output",
+                fmt::format("is empty; name a {}", output->get_type_name() == "DIR" ? "folder" : "file"));
   return true;
 }
 

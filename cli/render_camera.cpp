@@ -28,7 +28,7 @@ Size parsed_size(const std::string& text) {
   Size size;
   const char* const end = text.data() + text.size();
   const auto [cross, fault] = std::from_chars(text.data(), end, size.width);
-  if (fault == std::errc() && cross != end && *cross == 'x') {
+  if (fault == std::errc() && cross != end && (*cross == 'x' || *cross == 'X')) {
     const auto [after, second_fault] = std::from_chars(cross + 1, end, size.height);
     if (second_fault == std::errc() && after == end) return size;
   }

@@ -1,14 +1,25 @@
 #include "value_check.h"
 
+#include "tilepack/error/nearest_name.h"
+
 #include <fmt/core.h>
 
 #include <charconv>
+#include <sstream>
+#include <vector>
 
 namespace tilepack::cli {
 namespace {
 
 std::string refusal(const std::string& text, const std::string& allowed) {
   return fmt::format("'{}' is not allowed; it must be {}", text, allowed);
+}
+
+std::vector<std::string> split(const std::string& words) {
+  std::vector<std::string> list;
+  std::istringstream text(words);
+  for (std::string word; std::getline(text, word, '|');) list.push_back(word);
+  return list;
 }
 
 template <typename Number>
@@ -50,7 +61,9 @@ Check one_of(const std::string& words) {
   return [=](const std::string& text) {
     const bool good = !text.empty() && text.find('|') == std::string::npos &&
                       ("|" + words + "|").find("|" + text + "|") != std::string::npos;
-    return good ? std::string() : refusal(text, words);
+    if (good) return std::string();
+    const std::string nearest = nearest_name(text, split(words));
+    return refusal(text, words) + (nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
   };
 }
 

@@ -18,6 +18,7 @@
 #include "tilepack/tileset/material_map.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -191,6 +192,14 @@ std::string explained_extra(const BakeArguments& arguments, const std::string& e
          many_samples();
 }
 
+// Where a sample without -o would go: beside nothing of others, and named like it.
+std::string usual_folder(const std::string& sample) {
+  std::filesystem::path path(sample);
+  if (path.filename().empty()) path = path.parent_path();
+  const std::string stem = path.stem().string();
+  return (stem.empty() || stem.front() == '.' ? "material" : stem) + ".pack";
+}
+
 int run_bake(BakeArguments& arguments, Console& console) {
   if (arguments.list_presets) {
     console.print(arguments.printed.json() ? listed_presets_json() : listed_presets());
@@ -207,6 +216,11 @@ int run_bake(BakeArguments& arguments, Console& console) {
                             explained_extra(arguments, arguments.samples[1])));
   if (arguments.transition && arguments.samples.empty())
     throw Error(ErrorKind::usage, "--transition", "needs 2 to 4 materials: --transition A.png B.png");
+  if (arguments.folder.empty() && !arguments.samples.empty())
+    throw Error(ErrorKind::usage, "",
+                fmt::format("--output is required: `tilepack bake {}{} -o {}`",
+                            arguments.transition ? "--transition " : "", fmt::join(arguments.samples, " "),
+                            usual_folder(arguments.samples.front())));
   const std::string now = arguments.printed.settle(arguments.fields);
   const JobLimit limit(arguments.jobs);
   const BakeJob job = job_from(arguments);

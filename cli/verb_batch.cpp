@@ -12,6 +12,7 @@
 #include "tilepack/batch/batch_run.h"
 #include "tilepack/batch/entry_choice.h"
 #include "tilepack/batch/file_watch.h"
+#include "tilepack/batch/written_files.h"
 #include "tilepack/error/error.h"
 
 #include <fmt/format.h>
@@ -80,6 +81,20 @@ int worst_code(const std::vector<EntryResult>& results) {
   return code;
 }
 
+// What would be made, but for options that its verb refuses.
+void refuse_words(const Manifest& manifest, std::vector<EntryResult>& plan) {
+  for (EntryResult& result : plan) {
+    if (result.end != EntryEnd::built) continue;
+    try {
+      check_entry_words(manifest, manifest.entries[result.entry]);
+    } catch (const Error& error) {
+      result.end = EntryEnd::failed;
+      result.message = fmt::format("{}: {}", error.where(), error.what_happened());
+      result.kind = error.kind();
+    }
+  }
+}
+
 // What would be made and why, on stdout.
 int print_plan(const Manifest& manifest, const std::vector<EntryResult>& results, bool verbose,
                Console& console) {
@@ -95,6 +110,11 @@ int print_plan(const Manifest& manifest, const std::vector<EntryResult>& results
   }
   console.print(text + fmt::format("{} of {} would be made\n", made, results.size()));
   return worst_code(results);
+}
+
+// Files beside those of entries, by who asks for them.
+std::vector<OutputFile> side_files(const BatchArguments& arguments) {
+  return {{"--output", arguments.rules}, {"--depfile", arguments.depfile}, {"--stamp", arguments.stamp}};
 }
 
 void write_depfile(const BatchArguments& arguments, const Manifest& manifest,
@@ -135,12 +155,16 @@ int run_once(const BatchArguments& arguments, Console& console) {
     }
   const Manifest manifest = read_manifest(arguments.manifest);
   const std::vector<std::size_t> chosen = chosen_entries(manifest, arguments.only, arguments.shard);
+  check_beside_entries(manifest, side_files(arguments));
   if (!arguments.emit.empty()) {
     print_rules(arguments, manifest, chosen, console);
     return 0;
   }
-  if (arguments.dry_run)
-    return print_plan(manifest, planned_batch(manifest, chosen, settings), arguments.verbose, console);
+  if (arguments.dry_run) {
+    std::vector<EntryResult> plan = planned_batch(manifest, chosen, settings);
+    refuse_words(manifest, plan);
+    return print_plan(manifest, plan, arguments.verbose, console);
+  }
   BatchDisplay display(console, manifest, arguments.log_format == "json" ? LogFormat::json : LogFormat::text,
                        arguments.verbose);
   display.expect(chosen.size());
@@ -178,9 +202,21 @@ FileWatch watch_of(const BatchArguments& arguments) {
   return FileWatch(files, written);
 }
 
+// At once, as long as there is a manifest to be held against: a slip would be told again and again.
+void refuse_side_files(const BatchArguments& arguments) {
+  Manifest manifest;
+  try {
+    manifest = read_manifest(arguments.manifest);
+  } catch (const Error&) { // the run says what is wrong
+    return;
+  }
+  check_beside_entries(manifest, side_files(arguments));
+}
+
 int run_watching(const BatchArguments& arguments, Console& console) {
   constexpr std::chrono::milliseconds quiet{100};
   const Interrupted end{"what was finished is kept"};
+  refuse_side_files(arguments);
   console.note("watching; Ctrl-C ends it");
   while (true) {
     FileWatch watch = watch_of(arguments); // before the run, so that what is saved meanwhile counts

@@ -77,6 +77,9 @@ Action declare_bench(Options& options) {
                "memory and 400 MB of temporary files");
   options.flag("--quick", a->quick,
                "a first look, one rough round of timing; so it is unless --full is given");
+  options.flag(
+      "--targets", of.targets,
+      "lookups: also say which ratios tilepack's developers hold it to, and whether they are met here");
   add_jobs_option(options, of.jobs);
   return [a](Console& console) { return run_bench(*a, console); };
 }

@@ -143,6 +143,8 @@ public:
     for (const Frame& frame : frames) outputs.push_back({"--output", frame.file});
     const std::vector<std::string> inputs = inputs_read();
     check_outputs(outputs, inputs);
+    check_text_name(outputs.front());
+    if (!arguments.depfile.empty()) check_writable(arguments.depfile);
     report.scene = arguments.scene;
     report.map = scene.maps[map].name;
     report.frames = static_cast<int>(frames.size());

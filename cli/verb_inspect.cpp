@@ -4,6 +4,7 @@
 #include "tilepack/bake/output_check.h"
 #include "tilepack/error/nearest_name.h"
 #include "tilepack/image/image_file.h"
+#include "tilepack/image/image_format.h"
 #include "tilepack/mapping/index_json.h"
 #include "tilepack/pack/pack_folder.h"
 #include "tilepack/pack/pack_maps.h"
@@ -49,11 +50,12 @@ void check_outputs_of(const InspectArguments& a) {
                                         {"--corner-picture", a.corner_picture},
                                         {"--preview", a.preview}},
                 files_of_pack(a.pack));
+  check_text_name({"--index-map", a.index_map});
 }
 
 void add_drawing(StagedOutputs& outputs, const OutputFile& output, const VectorDrawing& drawing) {
   const std::string& file = output.file;
-  const std::string extension = fs::path(file).extension().string();
+  const std::string extension = file_ending(file);
   if (extension == ".svg")
     outputs.add_text(file, svg(drawing));
   else if (extension == ".png")

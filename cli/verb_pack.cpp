@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -27,6 +28,8 @@
 
 namespace tilepack::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct PackArguments {
   std::vector<std::string> tiles;
@@ -77,6 +80,14 @@ void check_agreement(const TileSet& set, double tolerance, Console& console) {
                   differences.size(), differences.front().difference));
 }
 
+// What the pack will be in its folder.
+std::vector<std::string> files_in(const std::string& folder, const PackDescription& made) {
+  std::vector<std::string> files = made.all_files();
+  files.emplace_back("pack.json");
+  for (std::string& file : files) file = (fs::path(folder) / file).string();
+  return files;
+}
+
 int run_pack(PackArguments& arguments, Console& console) {
   const std::string now = arguments.printed.settle(arguments.fields);
   const JobLimit limit(arguments.jobs);
@@ -84,7 +95,9 @@ int run_pack(PackArguments& arguments, Console& console) {
   if (const std::string note = replacing_note(arguments.folder); !note.empty()) console.note(note);
   std::vector<std::string> inputs = arguments.tiles;
   inputs.push_back(arguments.colors);
-  check_outputs(std::vector<OutputFile>{{"--depfile", arguments.depfile}}, inputs);
+  const OutputFile depfile{"--depfile", arguments.depfile};
+  check_outputs(std::vector{depfile}, inputs);
+  check_text_name(depfile);
   const TileColors tiles =
       parsed_color_list(read_text_file(arguments.colors, "the list of colors"), arguments.colors);
   const BakeOptions options = options_from(arguments, tiles);
@@ -103,10 +116,14 @@ int run_pack(PackArguments& arguments, Console& console) {
   pack.generator.version = TILEPACK_VERSION;
   pack.generator.seed = options.synth.seed;
   pack.generator.options = recorded_options(options, packing_fields());
+  const PackDescription made = described(pack);
+  check_outputs(std::vector{depfile}, files_in(arguments.folder, made));
+  if (const fs::path file(depfile.file);
+      !file.empty() && one_spelling(file).parent_path() != one_spelling(arguments.folder))
+    check_writable(file); // what lies in the pack's folder has to wait for it
   write_pack(pack, arguments.folder, progress);
   if (!arguments.depfile.empty())
     write_text_file(arguments.depfile, depfile_text(arguments.folder + "/pack.json", inputs));
-  const PackDescription made = described(pack);
   if (arguments.printed.json())
     console.print(made_json(made, arguments.folder), arguments.folder);
   else if (!console.quiet || arguments.printed.asked_for())

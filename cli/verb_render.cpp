@@ -75,6 +75,8 @@ int run_render(const RenderArguments& arguments, Console& console) {
   const WrapMode border = enum_called<WrapMode>(arguments.border, "--border", "border");
   check_outputs(std::vector<OutputFile>{{"--output", arguments.output}, {"--depfile", arguments.depfile}},
                 files_read_by(arguments));
+  check_text_name({"--depfile", arguments.depfile});
+  if (!arguments.depfile.empty()) check_writable(arguments.depfile);
   if (arguments.view.camera) {
     const Pack pack = read_pack(arguments.pack);
     const int map = map_called(pack, arguments.map);

@@ -35,7 +35,9 @@ int run_shader(const ShaderArguments& a, Console& console) {
   settings.language = enum_called<ShaderLanguage>(a.language, "--lang", "language");
   settings.name = a.name;
   settings.border = enum_called<WrapMode>(a.border, "--border", "border");
-  check_outputs(std::vector<OutputFile>{{"--output", a.output}}, files_of_pack(a.pack));
+  const OutputFile output{"--output", a.output};
+  check_outputs(std::vector{output}, files_of_pack(a.pack));
+  check_shader_name(output);
   const PackDescription description = read_pack_description(a.pack);
   const std::string text = shader_text(description.pack, settings, command_of(a), pack_content_hash(a.pack));
   if (a.output.empty()) {

@@ -28,8 +28,10 @@ struct ViewArguments {
 };
 
 void say_made(const ViewArguments& a, const std::string& page, Console& console) {
-  console.made(fmt::format("{}: a page of {}, {:.1f} MB, to be opened in a browser", a.output, a.pack,
-                           static_cast<double>(page.size()) / 1e6),
+  const auto bytes = static_cast<double>(page.size());
+  const std::string size =
+      bytes < 1e6 ? fmt::format("{:.0f} kB", bytes / 1e3) : fmt::format("{:.1f} MB", bytes / 1e6);
+  console.made(fmt::format("{}: a page of {}, {}, to be opened in a browser", a.output, a.pack, size),
                a.output);
 }
 

@@ -91,7 +91,8 @@ TEST_CASE("every field takes its values, gives them back and refuses others", "[
 }
 
 TEST_CASE("choices are listed where one is refused", "[pack]") {
-  CHECK(fault("coloring", "edges") == "--coloring: 'edges' is not allowed; it must be edge|corner");
+  CHECK(fault("coloring", "edges") ==
+        "--coloring: 'edges' is not allowed; it must be edge|corner; did you mean 'edge'?");
   CHECK(fault("flatten", "150") ==
         "--flatten: '150' is not allowed; it must be a whole number of 0 to 100, or auto");
   CHECK(fault("effort", "10") == "--effort: '10' is not allowed; it must be a whole number of 0 to 9");

@@ -6,6 +6,7 @@ import pty
 import subprocess
 import unittest
 
+from batch_test import SMALL
 from batch_test import Batch as BatchCase
 from command import SOURCE, TILEPACK
 
@@ -46,6 +47,39 @@ class Log(BatchCase):
         self.assertEqual(len(self.run_batch("-v").stderr.splitlines()), 4)
         quiet = self.run_batch("--quiet")
         self.assertEqual(len(quiet.stderr.splitlines()), 1)  # errors are always told
+
+    def test_quiet_leaves_errors_alone(self):
+        quiet = self.run_batch("-q")
+        self.assertEqual((quiet.stdout, len(quiet.stderr.splitlines())), ("", 1), quiet.stderr)
+        self.manifest({"samples": "in/*.png", "output": "packs/{stem}"})
+        for words in (["-q"], ["-q", "--all"]):  # what is known to be current goes a shorter way
+            quiet = self.run_batch(*words)
+            self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, "", ""), words)
+
+    def test_a_failure_is_told_once_where_there_is_one_entry(self):
+        self.assertIn("failed: packs/none", self.run_batch().stdout)
+        self.manifest({"sample": "missing.png", "output": "packs/none"})
+        alone = self.run_batch()
+        self.assertEqual(alone.stdout, "1 entry: 1 failed\n")
+        self.assertEqual(len(alone.stderr.splitlines()), 1)
+
+    def test_verdicts_and_notes_are_told(self):
+        self.noise_png("in/flat.png", 16, 16, seed=3)
+        self.manifest({"sample": "in/flat.png", "output": "packs/flat", "options": {**SMALL, "tile-size": "auto"}},
+                      {"sample": "in/a.png", "output": "packs/a"})
+        events = [json.loads(line) for line in self.run_batch("--log-format", "json").stdout.splitlines()]
+        done = {event["entry"]: event for event in events if event["event"] == "done"}
+        self.assertIn(done["packs/flat"]["verdict"], ("fair", "poor"))
+        self.assertRegex(done["packs/flat"]["remarks"][0], r"\w+ .*\.")
+        self.assertTrue(any("no repeat was found" in note for note in done["packs/flat"]["notes"]), done["packs/flat"])
+        self.assertIn("verdict", done["packs/a"])
+        self.assertNotIn("notes", done["packs/a"])
+        plain = self.run_batch("--all").stderr.splitlines()
+        line = next(line for line in plain if "packs/flat: built" in line)
+        self.assertRegex(line, r"built in [\d.]+ s \(asked for\): (fair|poor)$")
+        told = self.run_batch("--all", "-v").stderr
+        self.assertIn(f": {done['packs/flat']['verdict']} ({done['packs/flat']['remarks'][0]})", told)
+        self.assertIn("packs/flat: no repeat was found", told)
 
     def test_a_terminal_gets_a_line_an_entry_and_a_total(self):
         self.manifest({"samples": "in/*.png", "options": {"effort": 9, "colors": "3"}, "output": "packs/{stem}"})

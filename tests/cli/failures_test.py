@@ -23,10 +23,10 @@ other signals end a verb by that signal, after it has cleaned up. Of `batch`, th
 | command | what is wrong | code | message |
 |---|---|---|---|
 """
-NO_OPTION, NOTHING, RANGE, MISSING, FOREIGN, SHORT, BROKEN, TAKEN, NO_FOLDER, OWN, FULL, CHECK, MEMORY = (
+NO_OPTION, NOTHING, RANGE, MISSING, FOREIGN, SHORT, BROKEN, TAKEN, NO_FOLDER, OWN, IMAGE, FULL, CHECK, MEMORY = (
     "an option that is none", "nothing to work from", "a value out of range", "an input that is not there", "an input of another kind",
     "an input that was cut short", "an input that breaks a rule", "an output that would replace files of others",
-    "a folder that is not there", "an output that is an input", "a full disk where data goes", "a check that fails", "a job larger than the memory given")
+    "a folder that is not there", "an output that is an input", "a text in place of an image", "a full disk where data goes", "a check that fails", "a job larger than the memory given")
 SMALL = ["--tile-size", "16", "--effort", "0", "--virtual-size", "8"]
 BAKE = ["bake", "good.png", "-o", "new", *SMALL]
 TABLE = [
@@ -36,7 +36,8 @@ TABLE = [
     (["bake", "short.png", "-o", "new"], SHORT, 2), (["bake", "good.png", "-o", "new", "--tile-size", "64"], "a sample too small", 3),
     ([*BAKE, "--map", "height=other.png"], "maps of two sizes", 3), ([*BAKE, "--preset", "broken.json"], BROKEN, 3),
     (["bake", "good.png", "-o", "others", *SMALL], TAKEN, 4), (["bake", "good.png", "-o", "text.txt/p", *SMALL], NO_FOLDER, 4),
-    ([*BAKE, "--depfile", "text.txt/d"], NO_FOLDER, 4), ([*BAKE, "--depfile", "good.png"], OWN, 1),
+    ([*BAKE, "--depfile", "text.txt/d"], NO_FOLDER, 4), ([*BAKE, "--depfile", "good.png"], OWN, 1), (["bake", "good.png", "-o", "good.png"], OWN, 1),
+    ([*BAKE, "--depfile", "photo.jpg"], IMAGE, 1), (["bake", "good.png"], "nowhere to go", 1), (["bake", "p", "-o", "new"], "a pack in place of a sample", 3),
     (["pack", "--no-such"], NO_OPTION, 1), (["pack"], NOTHING, 1), (["pack", "tile.png", "-o", "new", "--colors", "one.json", "--tolerance", "2"], RANGE, 1),
     (["pack", "none.png", "-o", "new", "--colors", "one.json"], MISSING, 2), (["pack", "text.txt", "-o", "new", "--colors", "one.json"], FOREIGN, 2),
     (["pack", "tile.png", "-o", "new", "--colors", "none.json"], MISSING, 2), (["pack", "tile.png", "-o", "new", "--colors", "broken.json"], BROKEN, 3),
@@ -62,7 +63,8 @@ TABLE = [
     (["layouts", "--no-such"], NO_OPTION, 1), (["layouts", "--tiles", "0"], RANGE, 1), (["layouts", "--tiles", "13", "--sample", "none.png"], MISSING, 2),
     (["layouts", "--tiles", "13", "--sample", "text.txt"], FOREIGN, 2), (["layouts", ">"], FULL, 4),
     (["shader", "--no-such"], NO_OPTION, 1), (["shader"], NOTHING, 1), (["shader", "none", "--lang", "c"], MISSING, 2),
-    (["shader", "bad", "--lang", "c"], BROKEN, 3),
+    (["shader", "bad", "--lang", "c"], BROKEN, 3), (["shader", "p"], "an option that is missing", 1), (["shader", "p", "--lang", "GLSL"], RANGE, 1),
+    (["shader", "p", "--lang", "c", "-o", "photo.jpg"], IMAGE, 1), (["shader", "p", "--lang", "c", "-o", "cut/pack.json"], "an output that is part of a pack", 1),
     (["view", "--no-such"], NO_OPTION, 1), (["view"], NOTHING, 1), (["view", "none", "-o", "v.html"], MISSING, 2), (["view", "bad", "-o", "v.html"], BROKEN, 3),
     (["bench", "--no-such"], NO_OPTION, 1), (["bench"], NOTHING, 1), (["bench", "none"], MISSING, 2), (["bench", "bad"], BROKEN, 3),
     (["batch", "--no-such"], NO_OPTION, 1), (["batch"], NOTHING, 1), (["batch", "m.json", "--shard", "3/2"], RANGE, 1),
@@ -70,6 +72,8 @@ TABLE = [
     (["batch", "broken.json"], BROKEN, 3), (["batch", "m.json", "--only", "gone", "-q"], MISSING, 2), (["batch", "m.json", "--only", "bad", "-q"], BROKEN, 3),
     (["batch", "m.json", "--only", "taken", "-q"], TAKEN, 4), (["batch", "m.json", "--only", "differ", "-q"], CHECK, 5),
     (["batch", "m.json", "--only", "good", "-q", "--memory", "1M"], MEMORY, 1), (["batch", "m.json", "--emit", "ninja", "-o", "text.txt/build.ninja"], NO_FOLDER, 4),
+    (["batch", "m.json", "--stamp", "m.json"], OWN, 1), (["batch", "m.json", "--depfile", "good.png"], OWN, 1), (["batch", "m.json", "--emit", "make", "-o", "cut/pack.json"], "an output that is part of a pack", 1),
+    (["batch", "m.json", "--only", "lang", "-q"], "an option that is missing", 3),
     (["bakee"], "a verb that is none", 1), ([], "no verb", 1), (["help", "--completion", "csh"], "a shell that is none", 1),
 ]
 
@@ -103,6 +107,7 @@ class Failures(CommandCase):
             {"name": "gone", "sample": "none.png", "output": "packs/gone"},
             {"name": "bad", "sample": "good.png", "output": "packs/bad", "options": {"seed": "x"}},
             {"name": "taken", "sample": "good.png", "output": "others", "options": {"tile-size": 16, "effort": 0}},
+            {"name": "lang", "verb": "shader", "pack": "p", "output": "p.h"},
             {"name": "differ", "verb": "compare", "a": "good.png", "b": "good2.png", "output": "differ.txt"}]})
 
     def rows(self):

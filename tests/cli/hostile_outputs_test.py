@@ -40,7 +40,8 @@ class Outputs(CommandCase):
 
     def test_the_folder_is_a_file(self):
         sample = self.noise_png("sample.png")
-        self.refused("bake", sample, "-o", "sample.png", *SMALL, code=CANNOT_WRITE, saying="no folder")
+        self.refused("bake", sample, "-o", "./sample.png", *SMALL, code=USAGE, saying="would replace a file that is worked from")
+        self.refused("bake", sample, "-o", self.write("notes.txt", "mine"), *SMALL, code=CANNOT_WRITE, saying="no folder")
         self.refused("bake", sample, "-o", "sample.png/out", *SMALL, code=CANNOT_WRITE)
         self.refused("bake", sample, "-o", "/proc/out", *SMALL, code=CANNOT_WRITE)
 

@@ -66,7 +66,9 @@ class OptionValues(CommandCase):
                                          (("validate", "pack"), "--format", "text|json|csv"),
                                          (("compare", "a", "b"), "--format", "text|json"),
                                          (("layouts",), "--format", "text|json")):
-            self.refuses(command, option, ("xml", "tex", "text|json", ""), allowed)
+            self.refuses(command, option, ("xml", "text|json", ""), allowed)
+            if "text" in allowed:
+                self.refuses(command, option, ("tex", "TEXT"), allowed + "; did you mean 'text'?")
 
     def test_messages_of_rendering_name_options(self):
         render = ("render", "pack", "-o", "out.png")

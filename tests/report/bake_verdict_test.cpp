@@ -396,7 +396,7 @@ TEST_CASE("the verdict on a transition is that of its materials and of the borde
   CHECK(says(facts, Grade::fair, "some things look cut"));
   facts.materials[1].report.figures.cut_mean = 100;
   CHECK(bake_verdict(facts).grade == Grade::poor);
-  CHECK(says(facts, Grade::poor, "wall: Across cuts"));
+  CHECK(says(facts, Grade::poor, "wall: Along cuts"));
 }
 
 TEST_CASE("tones that end in lines are told", "[bake_verdict]") {

@@ -1,5 +1,6 @@
 #include "tilepack/bake/bake_fields.h"
 
+#include "tilepack/error/nearest_name.h"
 #include "tilepack/numeric/enum_names.h"
 #include "tilepack/tileset/limits.h"
 
@@ -17,7 +18,9 @@ namespace {
 template <NamedEnum Enum>
 Enum choice_named(const std::string& text) {
   if (const std::optional<Enum> value = enum_named<Enum>(text)) return *value;
-  refuse_value(text, alternatives_of<Enum>());
+  const std::string nearest = nearest_name(text, names_of<Enum>());
+  refuse_value(text, alternatives_of<Enum>() +
+                         (nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
 }
 
 // A place in the options, which may be in one of their groups.
@@ -341,7 +344,7 @@ bool asks_for_edge_colors(std::span<const BakeSetting> settings) {
   };
   const std::string colors = value("colors");
   return value("layout") == "tile-index" || value("corner-pack") == "true" || value("set") == "sequential" ||
-         value("interior") == "quilt" || colors.find('x') != std::string::npos ||
+         value("interior") == "quilt" || colors.find_first_of("xX") != std::string::npos ||
          (colors.size() == 1 && colors > std::to_string(limits::most_corner_colors) &&
           colors <= std::to_string(limits::most_edge_colors));
 }
@@ -356,6 +359,10 @@ std::span<const BakeField> bake_fields() {
 std::vector<BakeField> packing_fields() {
   std::vector<BakeField> fields(bake_fields().begin(), bake_fields().end());
   std::erase_if(fields, [](const BakeField& field) { return field.scope != FieldScope::packing; });
+  for (BakeField& field : fields)
+    if (field.name == "seed")
+      field.help =
+          "another number lays the tiles in another order, 0 to 2^53 - 1; they are as they were drawn";
   return fields;
 }
 

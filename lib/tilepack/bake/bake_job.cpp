@@ -5,6 +5,7 @@
 #include "tilepack/bake/material_values.h"
 #include "tilepack/bake/memory_estimate.h"
 #include "tilepack/bake/output_check.h"
+#include "tilepack/bake/prepared_sample.h"
 #include "tilepack/bake/preset.h"
 #include "tilepack/image/image_file.h"
 #include "tilepack/pack/file_name.h"
@@ -76,6 +77,7 @@ void check_outputs_of(const BakeJob& job, const std::vector<std::string>& inputs
   const OutputFile depfile{field("depfile"), job.depfile}, page{field("report"), job.report};
   check_page_name(page);
   check_outputs(std::vector{depfile, page}, inputs);
+  check_text_name(depfile);
   check_pack_folder_for(job.folder, inputs);
   const fs::path pack_folder = one_spelling(job.folder);
   for (const std::string& file : {depfile.file, page.file})
@@ -199,6 +201,7 @@ BakedJob run_checked(const BakeJob& job, const BakeOptions& options, const JobWa
   for (const std::string& material : job.transition)
     read.push_back(read_samples(sample_files(material).files, reading_for(job)));
   if (names.empty()) read.push_back(read_samples(maps, reading_for(job)));
+  for (const ReadSamples& material : read) check_one_size(material.maps); // matters more than any note
   tell(notes_on_material(job));
   std::vector<TransitionMaterial> materials;
   for (std::size_t m = 0; m < names.size(); ++m)

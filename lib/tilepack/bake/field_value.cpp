@@ -27,7 +27,7 @@ std::int64_t parsed_whole(const std::string& text, std::int64_t lowest, std::int
 
 Extent parsed_extent(const std::string& text, std::int64_t lowest, std::int64_t highest,
                      const std::string& note, const char* form) {
-  const std::size_t cross = text.find('x');
+  const std::size_t cross = text.find_first_of("xX");
   Extent e;
   if (!parse_whole(std::string_view(text).substr(0, cross), lowest, highest, e.width) ||
       !parse_whole(std::string_view(text).substr(cross == std::string::npos ? 0 : cross + 1), lowest, highest,

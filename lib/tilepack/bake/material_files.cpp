@@ -252,10 +252,32 @@ void add_unlike(const Folder& folder, const Material& material, FoundMaterial& f
   }
 }
 
+// What most of the images end in, and of its spellings (".png", ".PNG") the one that most have.
+std::string commonest_ending(const std::vector<std::string>& files) {
+  std::map<std::string, std::map<std::string, int>> spellings;
+  for (const std::string& file : files)
+    if (has_readable_ending(file)) ++spellings[file_ending(file)][file.substr(file.rfind('.'))];
+  std::string best = ".png";
+  int most = 0;
+  for (const auto& [ending, spelled] : spellings) {
+    int count = 0, most_spelled = 0;
+    std::string spelling;
+    for (const auto& [one, times] : spelled) {
+      count += times;
+      if (times < most_spelled) continue; // of equals the last, which is in small letters
+      most_spelled = times;
+      spelling = one;
+    }
+    if (count <= most) continue;
+    most = count;
+    best = spelling;
+  }
+  return best;
+}
+
 // `files` are some of those in the folder `place`.
 std::string for_many_samples(const std::string& place, const std::vector<std::string>& files) {
-  const auto image = std::find_if(files.begin(), files.end(), has_readable_ending);
-  const std::string ending = image == files.end() ? ".png" : image->substr(image->rfind('.'));
+  const std::string ending = commonest_ending(files);
   return fmt::format("for many samples, list them in a manifest of batch: \"samples\": \"{}{}*{}\"", place,
                      place.ends_with('/') ? "" : "/", ending);
 }

@@ -48,6 +48,14 @@ MaterialFile map_of_kind(const KindNamed& named, const std::string& file) {
   return {std::string(named.kind->name), named.kind->role, file, named.kind->contents, named.normal_y};
 }
 
+// "brick" of "packs/brick.pack/".
+std::string pack_stem(const std::string& pack) {
+  fs::path path(pack);
+  if (path.filename().empty()) path = path.parent_path();
+  const std::string stem = path.stem().string();
+  return stem.empty() || stem.front() == '.' ? "pack" : stem;
+}
+
 // " The roles are …", with a hint before it if `word` is nearly one of them: what follows "'word' is no role".
 std::string roles_instead_of(const std::string& word) {
   std::vector<std::string> known{"data"};
@@ -57,12 +65,27 @@ std::string roles_instead_of(const std::string& word) {
                      nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest), listed_kinds());
 }
 
+// A pack holds images too, whose names would be taken for those of maps.
+void refuse_pack(const fs::path& sample, bool is_folder) {
+  const fs::path json = is_folder ? sample / "pack.json" : sample;
+  std::error_code fault;
+  if (json.filename() != "pack.json" || !fs::is_regular_file(json, fault)) return;
+  const std::string pack = is_folder ? sample.string() : sample.parent_path().string();
+  throw Error(
+      ErrorKind::invalid_content, sample.string(),
+      fmt::format("is a pack already, made from a sample: bake that sample again, or draw what the pack "
+                  "shows with `tilepack render {0} -o {1}.png`, or several packs in a scene with "
+                  "`tilepack compose`",
+                  pack.empty() ? "." : pack, pack_stem(pack)));
+}
+
 } // namespace
 
 FoundMaterial sample_files(const std::string& sample) {
   const FoundMaterial image{{{"color", Role::color, sample}}, {}};
   const fs::path path(sample);
   const bool is_folder = fs::is_directory(path);
+  refuse_pack(path, is_folder);
   // What is no folder and not there may be the common beginning of several names; if it is not, reading it
   // as an image says that it is missing.
   if (!is_folder && (fs::exists(fs::symlink_status(path)) || has_readable_ending(sample))) return image;

@@ -1,6 +1,8 @@
 #include "tilepack/bake/output_check.h"
 
+#include "tilepack/bake/material_names.h"
 #include "tilepack/error/error.h"
+#include "tilepack/image/image_format.h"
 #include "tilepack/image/staged_file.h"
 #include "tilepack/pack/pack_folder.h"
 #include "tilepack/pack/pack_read.h"
@@ -10,15 +12,38 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <sys/stat.h>
 
 namespace tilepack {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code fault;
-  return one_spelling(a) == one_spelling(b) || fs::equivalent(a, b, fault); // hard links
+// What a name stands for: the file that is there, by whatever name, or the one that could be.
+class NamedPlace {
+public:
+  explicit NamedPlace(const std::string& of) : file(of), id(id_behind(one_spelling(of).string())) {}
+
+  bool is(const std::string& other) const {
+    const std::optional<FileId> its = id_behind(other);
+    if (id || its) return id == its;
+    return one_spelling(file) == one_spelling(other);
+  }
+
+private:
+  const std::string& file;
+  std::optional<FileId> id;
+};
+
+[[noreturn]] void refuse_output(const OutputFile& output, const std::string& why) {
+  throw Error(ErrorKind::usage, output.where, fmt::format("'{}' {}; choose another name", output.file, why));
+}
+
+void refuse_inputs(const OutputFile& output, std::span<const std::string> inputs) {
+  const NamedPlace place(output.file);
+  for (const std::string& input : inputs)
+    if (place.is(input)) refuse_output(output, "would replace a file that is worked from");
 }
 
 } // namespace
@@ -32,20 +57,50 @@ fs::path one_spelling(const std::string& file) {
   return canonical.filename().empty() ? canonical.parent_path() : canonical; // "pack/"
 }
 
+std::optional<FileId> id_behind(const std::string& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+  return FileId{status.st_dev, status.st_ino};
+}
+
+fs::path pack_of_file(const std::string& file) {
+  std::error_code fault;
+  if (!fs::is_regular_file(file, fault)) return {};
+  const fs::path path = one_spelling(file), json = path.parent_path() / "pack.json";
+  if (path == json) return path.parent_path();
+  if (!fs::is_regular_file(json, fault)) return {};
+  try {
+    const std::vector<std::string> names = read_pack_description(json).all_files();
+    const bool is_named = std::find(names.begin(), names.end(), path.filename().string()) != names.end();
+    return is_named ? path.parent_path() : fs::path();
+  } catch (const Error&) { // no pack
+    return {};
+  }
+}
+
 void check_outputs(std::span<const OutputFile> outputs, std::span<const std::string> inputs) {
-  const auto refuse = [](const OutputFile& output, const std::string& why) {
-    throw Error(ErrorKind::usage, output.where,
-                fmt::format("'{}' {}; choose another name", output.file, why));
-  };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const OutputFile& output = outputs[i];
     if (output.file.empty()) continue;
-    for (const std::string& input : inputs)
-      if (same_file(output.file, input)) refuse(output, "would replace a file that is worked from");
+    refuse_inputs(output, inputs);
+    const NamedPlace place(output.file);
     for (const OutputFile& other : outputs.first(i))
-      if (!other.file.empty() && same_file(output.file, other.file))
-        refuse(output, fmt::format("is what {} writes too", other.where));
+      if (!other.file.empty() && place.is(other.file))
+        refuse_output(output, fmt::format("is what {} writes too", other.where));
+    if (const fs::path pack = pack_of_file(output.file); !pack.empty())
+      refuse_output(output, fmt::format("would replace a file of the pack '{}'", pack.filename().string()));
   }
+}
+
+void check_text_name(const OutputFile& output) {
+  if (!has_readable_ending(output.file) && !has_other_image_ending(output.file)) return;
+  refuse_output(output, "ends as an image does, and a text would be written there");
+}
+
+void check_shader_name(const OutputFile& output) {
+  check_text_name(output);
+  if (file_ending(output.file) == ".json")
+    refuse_output(output, "ends in '.json', and the text of a shader would be written there");
 }
 
 std::vector<std::string> files_of_pack(const std::string& pack) {
@@ -61,11 +116,11 @@ void check_pack_folder_for(const std::string& folder, std::span<const std::strin
     throw Error(ErrorKind::usage, field("output"),
                 fmt::format("'{}' lies in the pack '{}'; choose a folder outside of it", folder,
                             outer.filename().string()));
+  refuse_inputs({field("output"), folder}, inputs);
   check_pack_folder(folder);
   std::error_code fault;
   if (!fs::exists(fs::path(folder) / "pack.json", fault)) return;
-  for (const std::string& file : files_of_pack(folder))
-    check_outputs(std::vector<OutputFile>{{field("output"), file}}, inputs);
+  for (const std::string& file : files_of_pack(folder)) refuse_inputs({field("output"), file}, inputs);
 }
 
 std::string without_ending(const std::string& file, const std::string& allowed) {
@@ -78,7 +133,7 @@ std::string without_ending(const std::string& file, const std::string& allowed) 
 }
 
 void check_page_name(const OutputFile& output) {
-  const std::string extension = fs::path(output.file).extension().string();
+  const std::string extension = file_ending(output.file);
   std::error_code fault;
   const bool named = (extension == ".html" || extension == ".htm") && !fs::is_directory(output.file, fault);
   if (output.file.empty() || named) return;

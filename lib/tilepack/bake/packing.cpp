@@ -8,6 +8,7 @@
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/index_fill.h"
+#include "tilepack/mapping/index_size.h"
 #include "tilepack/mip/far_levels.h"
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/pack/stored_format_for.h"
@@ -109,9 +110,12 @@ void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
   if (kind == MappingKind::index &&
       (size.width < 1 || size.height < 1 || size.width > limits::longest_index_side ||
        size.height > limits::longest_index_side || size.width * size.height > limits::most_index_cells))
-    throw Error(ErrorKind::usage, field("virtual-size"),
-                fmt::format("{}x{} tiles; an index map has sides of 1 to {} and at most {} cells", size.width,
-                            size.height, limits::longest_index_side, limits::most_index_cells));
+    throw Error(
+        ErrorKind::usage, field("virtual-size"),
+        fmt::format("{0}x{1} tiles; an index map has sides of 1 to {2} and at most {3} cells, such as "
+                    "{4}x{4}",
+                    size.width, size.height, limits::longest_index_side, limits::most_index_cells,
+                    largest_index_square()));
 }
 
 // Tiles as the pack will store level 0, so that coarser levels are made from what is really there.

@@ -85,8 +85,18 @@ void check_fit(const SampleMap& sample, Size tile) {
                           tile.width, tile.height, way_out));
 }
 
+void check_one_size(std::span<const SampleMap> samples) {
+  for (const SampleMap& map : samples)
+    if (map.image.size() != samples[0].image.size())
+      throw Error(ErrorKind::invalid_content, map.label(),
+                  fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
+                              map.image.width(), map.image.height(), samples[0].label(),
+                              samples[0].image.width(), samples[0].image.height()));
+}
+
 void check_samples(std::span<const SampleMap> samples, const BakeOptions& options) {
   if (samples.empty()) throw Error(ErrorKind::usage, "", "there is no sample; name an image");
+  check_one_size(samples);
   std::set<std::string> names;
   for (const SampleMap& map : samples) {
     if (!is_map_name(map.name))
@@ -96,11 +106,6 @@ void check_samples(std::span<const SampleMap> samples, const BakeOptions& option
       throw Error(ErrorKind::usage, map.name,
                   fmt::format("is the name of two maps; give each its own, as in {}",
                               field("map", "NAME:ROLE=FILE")));
-    if (map.image.size() != samples[0].image.size())
-      throw Error(ErrorKind::invalid_content, map.label(),
-                  fmt::format("is {} x {} texels, and {} is {} x {}; the maps of a material have one size",
-                              map.image.width(), map.image.height(), samples[0].label(),
-                              samples[0].image.width(), samples[0].image.height()));
     if (map.role == Role::normal && map.image.channels() < 3)
       throw Error(
           ErrorKind::invalid_content, map.label(),

@@ -30,6 +30,9 @@ struct PreparedSample {
 /// Refuses numbers of colors and variants that are out of range, and sets that there are not. Error (usage).
 void check_set_choice(const BakeOptions& options);
 
+/// Refuses maps of several sizes: Error (invalid_content).
+void check_one_size(std::span<const SampleMap> samples);
+
 /// Refuses what can't be one material, or can't be stored as the options have it. Error as of baked().
 void check_samples(std::span<const SampleMap> samples, const BakeOptions& options);
 

@@ -5,6 +5,7 @@
 #include "tilepack/bake/text_file.h"
 #include "tilepack/batch/job_queue.h"
 #include "tilepack/batch/output_cache.h"
+#include "tilepack/batch/written_files.h"
 #include "tilepack/error/error.h"
 #include "tilepack/image/file_swap.h"
 
@@ -99,6 +100,10 @@ public:
       number[entries[i]] = i;
     }
     find_current();
+    std::vector<std::size_t> made;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (!current[i]) made.push_back(entries[i]);
+    check_written_files(manifest, made);
   }
 
   std::vector<EntryResult> run(const BatchWatch& told) {
@@ -235,7 +240,8 @@ private:
       if (restored(i, key, state)) {
         result.end = EntryEnd::restored;
       } else {
-        watch->make(manifest, entry, [&](std::string_view stage, double done) { progress(i, stage, done); });
+        result.story = watch->make(manifest, entry,
+                                   [&](std::string_view stage, double done) { progress(i, stage, done); });
         const bool stayed = inputs_stayed(state);
         const auto files = made_files(entry);
         write_record(entry, {state.inputs, files});
@@ -339,11 +345,6 @@ private:
 };
 
 } // namespace
-
-std::string index_file_of(const std::string& manifest) {
-  const fs::path file(manifest);
-  return (file.parent_path() / fmt::format(".{}.index", file.filename().string())).string();
-}
 
 std::optional<std::size_t> entries_if_all_current(const std::string& manifest) {
   const std::string text = read_text_file(manifest, "the manifest");

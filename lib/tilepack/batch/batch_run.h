@@ -41,6 +41,13 @@ inline constexpr auto enum_names<EntryEnd> =
                EnumName{EntryEnd::restored, "restored"}, EnumName{EntryEnd::failed, "failed"},
                EnumName{EntryEnd::skipped, "skipped"}};
 
+/// What there is to say of an output that was made.
+struct EntryStory {
+  std::string verdict = {};              ///< on a bake: "good", "fair" or "poor"; else empty
+  std::vector<std::string> remarks = {}; ///< why it is not good, the worst first, fields marked
+  std::vector<std::string> notes = {};   ///< that the verb made, fields marked
+};
+
 /// How an entry came out.
 struct EntryResult {
   std::size_t entry = 0; ///< its number in the manifest
@@ -48,6 +55,7 @@ struct EntryResult {
   std::vector<std::string> reasons;     ///< why it was to be made
   std::string message;                  ///< of a failure, with marked fields
   ErrorKind kind = ErrorKind::internal; ///< of a failure
+  EntryStory story;                     ///< if it was built
   double seconds = 0;
   std::int64_t peak_memory = 0; ///< bytes that the process has held at most until then
 };
@@ -56,7 +64,7 @@ struct EntryResult {
 /// from several threads at a time.
 struct BatchWatch {
   /// Makes the output of an entry, all or nothing; throws where it can't.
-  std::function<void(const Manifest& manifest, const BatchEntry& entry, const Progress& progress)> make;
+  std::function<EntryStory(const Manifest& manifest, const BatchEntry& entry, const Progress& progress)> make;
 
   std::function<void(std::size_t entry, const std::vector<std::string>& reasons)> started = {};
   /// May throw to end the batch: what runs is undone, nothing more begins.
@@ -69,9 +77,6 @@ struct BatchWatch {
 /// Thrown by a watch to end a batch; not an Error, since nothing went wrong.
 struct BatchCancelled {};
 
-/// Where the index of a manifest lies (CurrentIndex).
-std::string index_file_of(const std::string& manifest);
-
 /// How many entries a manifest has, if a run found all of them current and nothing changed since; found out without
 /// reading what it says. Throws Error (cannot_read).
 std::optional<std::size_t> entries_if_all_current(const std::string& manifest);
@@ -79,7 +84,7 @@ std::optional<std::size_t> entries_if_all_current(const std::string& manifest);
 /// Makes those of `chosen` entries, and of those that they are made from, whose outputs are not current: whose
 /// inputs, options or outputs have another content than when they were made, or that were made by another version.
 /// Goes on after a failure with all that does not hang on it. Results are in the order of the manifest, of all
-/// that was looked at. Throws what `watch` throws.
+/// that was looked at. Throws what `watch` throws, and before anything is made what check_written_files() throws.
 std::vector<EntryResult> run_batch(const Manifest& manifest, const std::vector<std::size_t>& chosen,
                                    const BatchSettings& settings, const BatchWatch& watch);
 

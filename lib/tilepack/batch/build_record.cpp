@@ -141,11 +141,21 @@ std::optional<BuildRecord> read_record(const std::string& side_file) {
   return parsed_record(text.str());
 }
 
+void shorten(std::vector<std::string>& reasons) {
+  constexpr std::size_t most_named = 3;
+  if (reasons.size() <= most_named + 1) return;
+  const std::size_t more = reasons.size() - most_named;
+  reasons.resize(most_named);
+  reasons.push_back(fmt::format("and {} more", more));
+}
+
 std::vector<std::string> differences(const std::optional<BuildRecord>& record, const BuildInputs& now) {
   if (!record) return {"not built yet"};
-  std::vector<std::string> reasons;
+  std::vector<std::string> reasons, of_files;
   compare_options(record->inputs, now, reasons);
-  compare_files(record->inputs, now, reasons);
+  compare_files(record->inputs, now, of_files);
+  shorten(of_files);
+  reasons.insert(reasons.end(), of_files.begin(), of_files.end());
   if (reasons.empty() && !(record->inputs == now)) reasons.emplace_back("inputs in another order");
   return reasons;
 }

@@ -46,6 +46,10 @@ std::optional<BuildRecord> parsed_record(std::string_view text);
 /// None if there is none, or a damaged one.
 std::optional<BuildRecord> read_record(const std::string& side_file);
 
+/// Of a list of reasons the first three, and how many there are more: a pack has many files, which mostly change
+/// together.
+void shorten(std::vector<std::string>& reasons);
+
 /// Why an output with `record` (none: never made) is not what `now` would make, a line each: "sample changed",
 /// "option seed: 0 → 3", "tilepack 0.1.0 → 0.2.0". Empty if it is.
 std::vector<std::string> differences(const std::optional<BuildRecord>& record, const BuildInputs& now);

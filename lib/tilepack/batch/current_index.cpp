@@ -209,4 +209,9 @@ void CurrentIndex::store(const std::vector<std::string>& outputs) {
   }
 }
 
+std::string index_file_of(const std::string& manifest) {
+  const std::filesystem::path file(manifest);
+  return (file.parent_path() / fmt::format(".{}.index", file.filename().string())).string();
+}
+
 } // namespace tilepack

@@ -63,4 +63,7 @@ private:
   mutable std::mutex mutex;
 };
 
+/// Where the index of a manifest lies.
+std::string index_file_of(const std::string& manifest);
+
 } // namespace tilepack

@@ -61,8 +61,12 @@ std::vector<std::size_t> chosen_entries(const Manifest& manifest, std::span<cons
                     [&](const BatchEntry& entry) { return is_asked_for(entry, name); }))
       continue;
     std::vector<std::string> known;
-    for (const BatchEntry& entry : entries) known.push_back(entry.name);
-    const std::string nearest = nearest_name(name, known);
+    std::string nearest; // "sand" means packs/sand
+    for (const BatchEntry& entry : entries) {
+      known.push_back(entry.name);
+      if (nearest.empty() && std::filesystem::path(entry.name).stem() == name) nearest = entry.name;
+    }
+    if (nearest.empty()) nearest = nearest_name(name, known);
     throw Error(ErrorKind::usage, field("only"),
                 fmt::format("'{}' is no entry of {}{}", name, manifest.file,
                             nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));

@@ -160,11 +160,14 @@ EntryState state_of(const Manifest& manifest, const BatchEntry& entry) {
   state.record = read_record(side_file_of(entry.output, makes_pack(entry)));
   state.reasons = differences(state.record, state.inputs);
   if (!state.record) return state;
+  std::vector<std::string> of_outputs;
   for (const HashedFile& made : state.record->outputs) {
     const auto hash = hash_if_there((fs::path(folder_of_output(entry)) / made.name).string());
     if (hash != made.hash)
-      state.reasons.push_back(fmt::format("output {} {}", made.name, hash ? "edited" : "missing"));
+      of_outputs.push_back(fmt::format("output {} {}", made.name, hash ? "edited" : "missing"));
   }
+  shorten(of_outputs);
+  state.reasons.insert(state.reasons.end(), of_outputs.begin(), of_outputs.end());
   return state;
 }
 

@@ -75,7 +75,8 @@ Bench measured_bench(const Pack& pack, int map, const std::string& name, int loo
                      const BenchOptions& options, const std::filesystem::path& folder,
                      const Progress& progress = {});
 
-std::string bench_text(const Bench& bench);
+/// `with_targets`: also which ratios this project holds itself to, and whether they are met.
+std::string bench_text(const Bench& bench, bool with_targets);
 std::string bench_json(const Bench& bench);
 std::string bench_csv(const Bench& bench); ///< section,name,value: one line a figure
 

@@ -14,7 +14,7 @@ std::vector<BenchRatio> all_ratios(const Bench& bench) {
 
 } // namespace
 
-std::string bench_text(const Bench& bench) {
+std::string bench_text(const Bench& bench, bool with_targets) {
   std::string text =
       fmt::format("{}, map {}: {} on this machine\n\nWhat to choose\n", bench.pack, bench.map, bench.target);
   for (const std::string& line : advice(bench)) text += "  " + line + '\n';
@@ -35,9 +35,10 @@ std::string bench_text(const Bench& bench) {
                     name_of(c.weights), c.nanoseconds, 1000 / c.nanoseconds, c.off_reference, c.rms_truth);
   text += "\nRatios (medians of rounds run in turn)\n";
   for (const BenchRatio& r : all_ratios(bench))
-    text += fmt::format(
-        "  {:>8.2f}  {}{}\n", r.value, r.name,
-        r.at_least ? fmt::format(" (at least {:g}: {})", *r.at_least, r.met() ? "met" : "MISSED") : "");
+    text += fmt::format("  {:>8.2f}  {}{}\n", r.value, r.name,
+                        with_targets && r.at_least
+                            ? fmt::format(" (at least {:g}: {})", *r.at_least, r.met() ? "met" : "MISSED")
+                            : "");
   text += "\nCost against size of the virtual texture, ns a sample\n  tiles a side    tiled   stored\n";
   for (const SizeCost& s : bench.lookups.sizes)
     text += fmt::format("  {:>12} {:>8.2f} {:>8}\n", s.tiles, s.tiled,

@@ -29,14 +29,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_name(std::string_view name, std::span<const std::string> known) {
   const auto bare = [](std::string_view text) {
-    return text.substr(std::min(text.find_first_not_of('-'), text.size()));
+    std::string letters(text.substr(std::min(text.find_first_not_of('-'), text.size())));
+    for (char& c : letters) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return letters;
   };
-  const std::string_view asked = bare(name);
+  const std::string asked = bare(name);
   std::string best;
   std::string begun; // with what was asked for
   std::size_t best_distance = ~std::size_t{0};
   for (const std::string& candidate : known) {
-    const std::string_view other = bare(candidate);
+    const std::string other = bare(candidate);
     if (asked.size() >= 2 && other.starts_with(asked) && (begun.empty() || candidate.size() < begun.size()))
       begun = candidate;
     const std::size_t distance = edit_distance(asked, other);

@@ -66,12 +66,17 @@ bool is_tga(const FileBytes& file, const std::filesystem::path& path, std::span<
   std::array<unsigned char, 18> tail{};
   if (file.size() >= 18 + 26) file.read(file.size() - tail.size(), tail);
   if (stands(footer, tail)) return true;
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  const std::string ending = file_ending(path);
   return ending == ".tga" || ending == ".targa" || ending == ".vda" || ending == ".icb" || ending == ".vst";
 }
 
 } // namespace
+
+std::string file_ending(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
 
 ImageFormat image_format(const std::filesystem::path& path) {
   const FileBytes file(path);

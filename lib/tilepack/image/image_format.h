@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace tilepack {
@@ -12,6 +13,9 @@ enum class ImageFormat { png, jpeg, tiff, exr, tga, bmp, webp, hdr, jpeg2000, dd
 
 /// Their names as messages list them: "PNG, JPEG, … or PSD".
 std::string_view readable_formats();
+
+/// What the name of a file ends in, ".png", in small letters; empty if it has no ending. Outputs are known by it.
+std::string file_ending(const std::filesystem::path& file);
 
 /// The format of `file` by its first bytes; an old TGA, which has no mark, by its name and header. Throws Error (cannot_read) if it is missing, no regular file,
 /// unreadable, empty or none of the formats.

@@ -63,6 +63,9 @@ StagedFile::StagedFile(std::filesystem::path final_name, std::string called)
   struct stat there {};
   if (::lstat(target.c_str(), &there) != 0 && errno != ENOENT)
     fails(fmt::format("cannot be created: {}", std::strerror(errno)));
+  // A device or a pipe, /dev/null or /dev/stdout, would be gone, with a file in its place.
+  if (::stat(target.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
+    fails("is a device or a pipe, which a file would replace; name a file");
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   for (int number = 0; number < parts_looked_at; ++number) remove_if_dead(part_of(folder, target, number));
   // The name is taken by creating it, so two processes that write the same target do not meet.
@@ -101,7 +104,11 @@ bool StagedFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
 void StagedFile::check() const {
   if (!failure.empty())
     throw Error(ErrorKind::cannot_write, shown,
-                fmt::format("writing failed: {}; free some space or choose another folder", failure));
+                fmt::format("writing failed: {}; {}", failure,
+                            failure == std::strerror(EFBIG)
+                                ? "raise the largest size of files (ulimit -f), or choose a folder on a "
+                                  "file system that takes larger ones"
+                                : "free some space or choose another folder"));
 }
 
 FileSwap StagedFile::finished() {

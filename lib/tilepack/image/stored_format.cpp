@@ -1,5 +1,7 @@
 #include "tilepack/image/stored_format.h"
 
+#include "tilepack/image/image_format.h"
+
 namespace tilepack {
 
 bool holds(ImageContainer container, Depth depth) {
@@ -16,7 +18,7 @@ StoredFormat usual_format(Depth depth, Encoding encoding) {
 }
 
 std::optional<ImageContainer> container_by_name(const std::filesystem::path& file) {
-  const std::string ending = file.extension().string();
+  const std::string ending = file_ending(file);
   return ending.empty() ? std::nullopt : enum_named<ImageContainer>(std::string_view(ending).substr(1));
 }
 

@@ -1,6 +1,7 @@
 #include "tilepack/mapping/index_fill.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/mapping/index_size.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/tileset/border_colors.h"
 #include "tilepack/tileset/limits.h"
@@ -181,9 +182,10 @@ Mapping filled_index_mapping(VirtualSize size, const TileColors& tiles, std::uin
       size.height > limits::longest_index_side || size.width * size.height > limits::most_index_cells)
     throw Error(
         ErrorKind::usage, field("virtual-size"),
-        fmt::format("{}x{} tiles can't be an index map; each side must be 1 to {}, and there may be {} "
-                    "cells in all",
-                    size.width, size.height, limits::longest_index_side, limits::most_index_cells));
+        fmt::format("{0}x{1} tiles can't be an index map; each side must be 1 to {2}, and there may be {3} "
+                    "cells in all, such as {4}x{4}",
+                    size.width, size.height, limits::longest_index_side, limits::most_index_cells,
+                    largest_index_square()));
   std::optional<std::vector<int>> ids;
   if (tile_count(tiles) > 0) ids = Filler(size, tiles, seed).run();
   if (!ids)

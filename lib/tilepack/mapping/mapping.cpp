@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/even_variants.h"
+#include "tilepack/mapping/index_size.h"
 #include "tilepack/mapping/mix_hash.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/numeric/wrap.h"
@@ -81,10 +82,12 @@ Mapping even_mapping(VirtualSize size, int corners, std::uint64_t seed, int vari
 Mapping index_mapping(const Mapping& mapping, const ColorCounts& colors) {
   check_size(mapping.size, limits::longest_virtual_side, "");
   if (mapping.size.width > limits::most_index_cells / mapping.size.height)
-    throw Error(ErrorKind::usage, field("virtual-size"),
-                fmt::format("an index map of {}x{} tiles is too large to store; up to {} cells are, or take "
-                            "the mapping \"mix\"",
-                            mapping.size.width, mapping.size.height, limits::most_index_cells));
+    throw Error(
+        ErrorKind::usage, field("virtual-size"),
+        fmt::format("an index map of {0}x{1} tiles is too large to store; up to {2} cells are, such as "
+                    "{3}x{3}, or take the mapping \"mix\"",
+                    mapping.size.width, mapping.size.height, limits::most_index_cells,
+                    largest_index_square()));
   Mapping index;
   index.kind = MappingKind::index;
   index.size = mapping.size;

@@ -121,7 +121,7 @@ void judge_cuts(const BakeFacts& facts, Remarks& remarks) {
   const double mean = mean_cut(facts);
   const double worst = f.cut_p95 / sample_step(facts);
   const std::string found = fmt::format(
-      "Across cuts material differs by {:.1f} on average and by up to {:.1f} along 19 of 20 texels of cut; "
+      "Along cuts material differs by {:.1f} on average, and by more than {:.1f} in one texel of 20; "
       "neighbouring texels of the sample differ by {:.1f}",
       f.cut_mean, f.cut_p95, f.sample_step);
   if (mean <= limit::cut_mean_fair && worst <= limit::cut_p95_fair) {

@@ -106,7 +106,7 @@ std::string corner_picture(const CornerPicture& picture) {
 }
 
 std::string ratio_table(const Bench& bench) {
-  std::string out = "<table><tr><th>ratio</th><th>measured</th><th>at least</th></tr>\n";
+  std::string out = "<table><tr><th>ratio</th><th>measured</th><th>developers ask for</th></tr>\n";
   for (const auto* list : {&bench.stored, &bench.lookups.ratios})
     for (const BenchRatio& r : *list)
       out += fmt::format("<tr><td>{}</td><td class=\"{}\">{:.2f}</td><td>{}</td></tr>\n", escaped(r.name),

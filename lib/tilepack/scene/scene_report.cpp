@@ -11,6 +11,7 @@ namespace tilepack {
 namespace {
 
 std::string megabytes(std::size_t bytes) {
+  if (bytes < 1'000'000) return fmt::format("{:.0f} kB", static_cast<double>(bytes) / 1e3);
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 
