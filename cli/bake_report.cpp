@@ -68,10 +68,10 @@ std::string title_of(const BakeJob& job) {
 // Only what could be better: an artist wants to know whether to look closer.
 std::string verdict_text(const BakeFacts& facts) {
   const BakeVerdict verdict = bake_verdict(facts);
-  std::string text =
-      fmt::format("  {:<9} {}: {}\n", "quality", name_of(verdict.grade), figures_text(facts.report.figures));
+  std::string text = fmt::format("  {:<9} {}{}\n", "quality", name_of(verdict.grade),
+                                 shows_nothing(facts) ? "" : ": " + figures_text(facts.report.figures));
   for (const BakeRemark& remark : verdict.remarks)
-    if (remark.grade != Grade::good || remark.code == "fireflies")
+    if (remark.grade != Grade::good || remark.code == "fireflies" || remark.code == "levels-end")
       text += fmt::format("  {:<9} {}\n", remark.grade != Grade::good ? name_of(remark.grade) : "note",
                           spelled(remark.text, FieldSpelling::option));
   return text;

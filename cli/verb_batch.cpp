@@ -12,6 +12,7 @@
 #include "tilepack/batch/batch_run.h"
 #include "tilepack/batch/entry_choice.h"
 #include "tilepack/batch/file_watch.h"
+#include "tilepack/batch/left_outputs.h"
 #include "tilepack/batch/written_files.h"
 #include "tilepack/error/error.h"
 
@@ -108,6 +109,8 @@ int print_plan(const Manifest& manifest, const std::vector<EntryResult>& results
       text += fmt::format("{}: can't be made: {}\n", name, spelled(result.message, FieldSpelling::json));
     if (result.end == EntryEnd::current && verbose) text += fmt::format("{}: current\n", name);
   }
+  for (const std::string& output : left_outputs(manifest))
+    text += fmt::format("{}: left by an earlier run, no entry of this manifest makes it\n", output);
   console.print(text + fmt::format("{} of {} would be made\n", made, results.size()));
   return worst_code(results);
 }

@@ -8,7 +8,6 @@
 #include "tilepack/bake/output_check.h"
 #include "tilepack/bake/text_file.h"
 #include "tilepack/image/image_file.h"
-#include "tilepack/mip/level_size.h"
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/pack/pack_read.h"
 #include "tilepack/pack/staged_outputs.h"
@@ -18,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -57,11 +57,13 @@ Filter filter_of(const std::string& name) {
 }
 
 VirtualRect default_rect(const Pack& pack, int level) {
-  const Size tile = level_size(pack.tile_size, level);
-  const auto side = [](std::int64_t tiles, int texels) {
-    return static_cast<int>(std::min<std::int64_t>(tiles, default_tiles)) * texels;
+  const auto side = [level](std::int64_t tiles, int texels) {
+    const auto finest = static_cast<double>(std::min<std::int64_t>(tiles, default_tiles) * texels);
+    return static_cast<int>(
+        std::ceil(std::ldexp(finest, -level))); // at far levels tiles need not have whole texels
   };
-  return {0, 0, side(pack.mapping.size.width, tile.width), side(pack.mapping.size.height, tile.height)};
+  return {0, 0, side(pack.mapping.size.width, pack.tile_size.width),
+          side(pack.mapping.size.height, pack.tile_size.height)};
 }
 
 std::vector<std::string> files_read_by(const RenderArguments& arguments) {
@@ -95,7 +97,7 @@ int run_render(const RenderArguments& arguments, Console& console) {
   const Pack pack = read_pack(arguments.pack);
   const int map = map_called(pack, arguments.map);
   const auto& packed = pack.maps[static_cast<std::size_t>(map)];
-  const int levels = static_cast<int>(packed.levels.size());
+  const int levels = static_cast<int>(packed.levels.size() + packed.far_levels.size());
   if (arguments.level < 0 || arguments.level >= levels)
     throw Error(ErrorKind::usage, "--level",
                 fmt::format("{}; the pack has levels 0 to {}", arguments.level, levels - 1));
@@ -143,7 +145,11 @@ Action declare_render(Options& options) {
           "--rect", a->rect,
           "window in texels of the level, anywhere, also beyond the border (default: the first 8 x 8 tiles)")
       .value("X,Y,W,H");
-  options.option("--level", a->level, "mip level, 0 the finest (default 0)")
+  options
+      .option("--level", a->level,
+              "mip level, 0 the finest (default 0); of a pack baked with --full-mips also those past the "
+              "levels of tiles, "
+              "down to the mean")
       .check(whole_number(0, 30))
       .value("L");
   options

@@ -28,12 +28,16 @@ install(FILES ${TILEPACK_MADE}/completion/bash/tilepack DESTINATION ${CMAKE_INST
 install(FILES ${TILEPACK_MADE}/completion/zsh/_tilepack DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(FILES ${TILEPACK_MADE}/completion/fish/tilepack.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
+# In a folder where find_package doesn't look: the folder of the program may be on the PATH, whose folders it takes for prefixes,
+# and what is made here serves only where it is installed.
+set(tilepack_to_install ${PROJECT_BINARY_DIR}/to_install)
+file(REMOVE ${PROJECT_BINARY_DIR}/tilepackConfig.cmake ${PROJECT_BINARY_DIR}/tilepackConfigVersion.cmake) # older builds' place
 install(EXPORT tilepackTargets NAMESPACE tilepack:: DESTINATION ${tilepack_package})
 configure_package_config_file(
-  ${CMAKE_CURRENT_LIST_DIR}/tilepackConfig.cmake.in ${PROJECT_BINARY_DIR}/tilepackConfig.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/tilepackConfig.cmake.in ${tilepack_to_install}/tilepackConfig.cmake
   INSTALL_DESTINATION ${tilepack_package}
   PATH_VARS tilepack_share)
 # Before 1.0 a minor version may break what was.
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/tilepackConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/tilepackConfig.cmake ${PROJECT_BINARY_DIR}/tilepackConfigVersion.cmake
+write_basic_package_version_file(${tilepack_to_install}/tilepackConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${tilepack_to_install}/tilepackConfig.cmake ${tilepack_to_install}/tilepackConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/tilepackLibraries.cmake ${CMAKE_CURRENT_LIST_DIR}/tilepackBuild.cmake DESTINATION ${tilepack_package})

@@ -7,7 +7,8 @@
 # Both add a target of that name, which is part of `all`, and is made again when a file that was read changes: samples, maps,
 # presets, the manifest, all that its patterns match. Of a manifest, tilepack itself decides by content which entries that
 # concerns. Relative paths are meant from CMAKE_CURRENT_SOURCE_DIR, OUTPUT from CMAKE_CURRENT_BINARY_DIR; outputs of a
-# manifest lie where it says. TILEPACK_PROGRAM is the program.
+# manifest lie where it says. TILEPACK_PROGRAM is the program. No language needs to be enabled: project(game NONE) will do,
+# and then find_package(tilepack) asks for no library and gives none.
 
 find_program(TILEPACK_PROGRAM tilepack HINTS "${CMAKE_CURRENT_LIST_DIR}/../../../bin" "${CMAKE_CURRENT_LIST_DIR}/../../../../bin")
 

@@ -27,11 +27,34 @@ class Advice(CommandCase):
         self.assertIn("poor", done.stderr)
 
     def test_what_is_good_enough_is_as_without(self):
-        # One plain value: nothing stands against it.
+        # One plain value is fair, and no option is advised against that.
         write_png(self.path("plain.png"), [[90] * 64 for _ in range(64)], 1)
         self.run_tilepack("bake", "plain.png", "-o", "a", "--tile-size", 16)
-        self.run_tilepack("bake", "plain.png", "-o", "b", "--tile-size", 16, "--require", "good", "--apply-advice")
+        self.run_tilepack("bake", "plain.png", "-o", "b", "--tile-size", 16, "--require", "fair", "--apply-advice")
         self.assertEqual(self.contents("a"), self.contents("b"))
+
+    def test_a_sample_that_shows_nothing_is_called_that(self):
+        write_png(self.path("plain.png"), [[90] * 64 for _ in range(64)], 1)
+        write_png(self.path("clear.png"), [[(5 * x + 7 * y + c) % 256 if c < 3 else 0 for x in range(64) for c in range(4)]
+                                           for y in range(64)], 4)
+        for name, code in (("plain", "plain"), ("clear", "clear")):
+            done = self.run_tilepack("bake", name + ".png", "-o", name)
+            self.assertIn("nothing to tile", done.stdout)
+            for word in ("of the sample shown", "--colors", "--wraps", "--tile-size"):
+                self.assertNotIn(word, done.stdout + done.stderr)
+            done = self.run_tilepack("bake", name + ".png", "-o", name, "--format", "json", "--require", "good", code=5)
+            remarks = json.loads(done.stdout)["verdict"]["remarks"]
+            self.assertEqual([(r["grade"], r["code"], "cure" in r) for r in remarks], [("fair", code, False)])
+
+    def test_levels_that_end_early_are_noted_once_and_make_no_verdict_worse(self):
+        for size, mips, noted in (("36x40", [], True), ("36x40", ["--full-mips"], False), ("36x40", ["--mips", "none"], False),
+                                  ("40", [], False)):
+            done = self.run_tilepack("bake", self.sample, "-o", "out", "--tile-size", size, "--effort", 0, *mips)
+            self.assertEqual(done.stdout.count("  note "), int(noted), done.stdout)
+            self.assertEqual("--full-mips goes on" in done.stdout, noted)
+        done = self.run_tilepack("bake", self.sample, "-o", "out", "--tile-size", "36x40", "--effort", 0, "--format", "json")
+        remark = [r for r in json.loads(done.stdout)["verdict"]["remarks"] if r["code"] == "levels-end"][0]
+        self.assertEqual((remark["grade"], remark["cure"]), ("good", {"field": "full-mips", "value": "true"}))
 
     def test_advice_is_followed_twice_at_most_and_the_better_kept(self):
         plain = json.loads(self.run_tilepack("bake", self.sample, "-o", "a", *POOR, "--format", "json").stdout)

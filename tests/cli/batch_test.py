@@ -46,6 +46,21 @@ class Batch(CommandCase):
 
 
 class WhatIsMade(Batch):
+    def test_what_no_entry_makes_any_more_is_named(self):
+        self.samples("a", "b")
+        os.makedirs(self.path("packs/other"))  # of nobody
+        self.manifest({"samples": "in/*.png", "output": "packs/{stem}"},
+                      {"verb": "render", "packs": "packs/*", "options": {"scale": 0.25}, "output": "previews/{stem}.png"})
+        self.batch("m.json")
+        self.assertEqual(self.plan("m.json"), {})
+        os.remove(self.path("in/b.png"))
+        left = "left by an earlier run, no entry of this manifest makes it"
+        self.assertEqual(self.plan("m.json"), {"packs/b": left, "previews/b.png": left})
+        self.batch("m.json")
+        shutil.rmtree(self.path("packs/b"))
+        os.remove(self.path("previews/b.png"))  # its side file stays, and says nothing any more
+        self.assertEqual(self.plan("m.json"), {})
+
     def test_packs_previews_and_checks_are_one_build(self):
         self.samples("a", "b")
         self.manifest({"samples": "in/*.png", "output": "packs/{stem}"},

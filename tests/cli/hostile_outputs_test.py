@@ -57,6 +57,20 @@ class Outputs(CommandCase):
         self.assertIn("link to nothing", done.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["out", "sample.png"])
 
+    def test_links_in_place_of_outputs(self):
+        """As the README says: a pack goes where the link leads, a file takes its place."""
+        os.makedirs(self.path("elsewhere"))
+        self.write("kept.png", "mine")
+        os.symlink("elsewhere", self.path("out"))
+        os.symlink("kept.png", self.path("picture.png"))
+        self.run_tilepack("bake", self.noise_png("sample.png"), "-o", "out", *SMALL)
+        self.run_tilepack("render", "out", "-o", "picture.png", "--rect", "0,0,8,8")
+        self.assertTrue(os.path.islink(self.path("out")))
+        self.assertTrue(os.path.isfile(self.path("elsewhere/pack.json")))
+        self.assertFalse(os.path.islink(self.path("picture.png")))
+        with open(self.path("kept.png"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "mine")
+
     def test_what_is_read_is_not_replaced(self):
         self.older_pack()
         self.noise_png("other.png", seed=2)

@@ -1,12 +1,14 @@
 """The lookup in GLSL and HLSL as SPIR-V: it is valid, fetches as often as a plain texture, and HLSL, turned into GLSL
 again, finds the tiles of C on Mesa's software renderer."""
 
+import os
 import re
 import shutil
 import subprocess
 import unittest
 
 import gl_context
+from command import SOURCE
 from shader_case import CELL_OF, PACKS, ShaderCase, dialect
 
 GLSL = """
@@ -56,6 +58,21 @@ class ShaderSpirvTest(ShaderCase):
                 continue
             with self.subTest(kind):
                 self.spirv(self.fragment(self.bake(kind), False, "gdshader"), False)
+
+    def test_it_compiles_pasted_after_a_version(self):
+        """Of desktops and of GLSL ES, which knows no precision of floats and samplers by itself."""
+        with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
+            recipe = re.search(r'^    #include "pebbles.glsl".*?\n((?:    .*\n)+)', file.read(), re.MULTILINE).group(1)
+        for kind in PACKS:
+            pack = self.bake(kind)
+            samplers = "sampler2DArray" if self.layers(pack) else "sampler2D"
+            more = [("sampler2D", "corners")] * self.has_corners(pack) + [("usampler2D", "ids")] * bool(self.ids_of(pack)[0])
+            uniforms = "".join(f"uniform {sampler} {name};\n" for sampler, name in more)
+            program = uniforms + recipe.replace("sampler2D", samplers, 1).replace("(pebbles,", "(pebbles, " + "".join(n + ", " for _, n in more))
+            for version in ("300 es", "330"):
+                with self.subTest(kind, version=version):
+                    self.write("program.frag", f"#version {version}\n" + self.text(pack, "glsl") + program)
+                    self.run_tool("glslangValidator", "-S", "frag", "program.frag")
 
     def fragment(self, pack, hlsl, language=None):
         layers, corners, ids = self.layers(pack), self.has_corners(pack), bool(self.ids_of(pack)[0])

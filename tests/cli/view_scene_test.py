@@ -128,6 +128,23 @@ class ViewSceneTest(CommandCase):
                 for j in range(SIDE) for i in range(SIDE)]
 
     @unittest.skipUnless(CHROMIUM, "not run: no chromium")
+    def test_a_browser_reads_far_levels_as_compose_does(self):
+        self.picture("sample.png", (120, 130, 70), 3, side=96)
+        pictures = {}
+        for mips in (["--full-mips"], []):
+            # Tiles of 20 texels have three levels; a pixel of 8 texels asks for the fourth.
+            self.run_tilepack("bake", "sample.png", "-o", "far.pack", "--tile-size", "20", "--effort", "0", "-q", *mips)
+            self.write_json("scene.json", {"format": "tilepack-scene", "version": 1, "size": [2560, 2560], "output": "far",
+                                           "nodes": {"far": {"block": "pack", "file": "far.pack"}}})
+            self.run_tilepack("view", "scene.json", "-o", "page.html")
+            picture = found_in_page(self, "page.html", SIDE, "  picture('far', { x: 1280 / pack.tile[0], y: 1280 / pack.tile[1], "
+                                    "zoom: 1 / 8, filter: 'texture', lit: 0, fly: 0, tint: 'none' });\n")["pictures"]["far"]
+            differences = self.differences(picture, (1280, 1280, 1 / 8, "texture"))
+            self.assertLessEqual(max(differences), 3)
+            pictures[str(mips)] = picture
+        self.assertEqual(len(set(pictures.values())), 2)
+
+    @unittest.skipUnless(CHROMIUM, "not run: no chromium")
     def test_a_browser_evaluates_what_compose_draws(self):
         self.scene()
         places = [(ZONE * (i % 4) + 384, ZONE * (i // 4) + 384, 1) for i in range(16)]

@@ -2,11 +2,12 @@
 
 import base64
 import json
+import random
 import re
 import unittest
 
 from browser_page import CHROMIUM, found_in_page
-from png_image import read_png
+from png_image import read_png, write_png
 from shader_case import ShaderCase
 
 SIDE = 128
@@ -100,6 +101,27 @@ class ViewTest(ShaderCase):
                 self.assertIn("filter=nearest", found["address"])
                 self.assertEqual(found["moved"], [3.5, 0.5, "nearest"])
                 self.assertFalse(found["wide"])
+
+    @unittest.skipUnless(CHROMIUM, "not run: no chromium")
+    def test_a_browser_shows_far_levels_as_render_does(self):
+        rng = random.Random(3)  # areas as large as tiles, so that there is something to be seen from afar
+        tones = [[rng.choice((20, 235)) for _ in range(8)] for _ in range(8)]
+        write_png(self.path("sample.png"), [[tones[y // 16][x // 16] + rng.randrange(20) for x in range(128) for _ in range(3)]
+                                            for y in range(128)], 3)
+        self.run_tilepack("view", self.bake("full"), "-o", "page.html")
+        pictures = found_in_page(self, "page.html", SIDE, """
+  const far = { x: 64, y: 64, fly: 0, lit: 0, tint: 'none', filter: 'texture' };
+  for (const level of [5, 6, 7]) picture('level ' + level, { ...far, zoom: 2 ** -level });
+""")["pictures"]
+        for level in (5, 6, 7):  # tiles of 16 texels have 5 levels, 0 to 4
+            side = SIDE << level
+            corner = 64 * 16 - side // 2
+            rows = self.rendered("full.pack", f"--rect={corner},{corner},{side},{side}", "--scale", str(2 ** -level))
+            self.assertLessEqual(self.largest_difference(pictures[f"level {level}"], rows), 3)
+            again = self.rendered("full.pack", "--level", str(level), f"--rect={corner >> level},{corner >> level},{SIDE},{SIDE}")
+            if level < 7:
+                self.assertEqual(again, rows)
+        self.assertGreater(self.largest_difference(pictures["level 5"], rows), 5)
 
     def check_ids(self, pack, picture, x, y):
         lookup, pixels = self.c_lookup(pack), base64.b64decode(picture)

@@ -1,5 +1,7 @@
 # Installs the build, moves what was installed elsewhere, builds samples/example against it and runs it. Run by
 # ctest with -D SOURCE, BUILD, WORK, COMPILER, FLAGS, BUILD_TYPE.
+cmake_minimum_required(VERSION 3.25)
+
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT result EQUAL 0)
@@ -8,6 +10,28 @@ function(run)
   endif()
   set(output "${output}" PARENT_SCOPE)
 endfunction()
+
+# Who has built the program alone, as the quick start does, can install: all that is installed from the build is made
+# by then, or by what configures it.
+find_program(NINJA ninja)
+if(NINJA AND EXISTS ${BUILD}/build.ninja)
+  run(${NINJA} -C ${BUILD} -t commands tilepack_cli)
+  set(commands "${output}")
+  file(READ ${BUILD}/cmake_install.cmake installed)
+  string(REGEX MATCHALL "FILES \"${BUILD}/[^\"]+\"" installed "${installed}")
+  list(TRANSFORM installed REPLACE "FILES \"${BUILD}/([^\"]+)\"" "\\1")
+  list(FILTER installed EXCLUDE REGEX "^CMakeFiles/Export/")
+  if(NOT "tilepack" IN_LIST installed OR NOT "made/man1" IN_LIST installed)
+    message(FATAL_ERROR "what is installed is not found any more: ${installed}")
+  endif()
+  foreach(name IN LISTS installed)
+    string(REGEX REPLACE "^made/.*" "-D FOLDER=${BUILD}/made " made ${name})
+    string(FIND "${commands}" "${made}" at)
+    if(at EQUAL -1 AND NOT name MATCHES "^to_install/")
+      message(FATAL_ERROR "--target tilepack_cli does not make ${name}, which is installed")
+    endif()
+  endforeach()
+endif()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
@@ -89,14 +113,17 @@ if(NOT output MATCHES "^(${value}${value}${value}${value}\n)(${value}${value}${v
   message(FATAL_ERROR "look_up printed\n${output}")
 endif()
 
-# Packs are targets of another project's build.
+# Packs are targets of another project's build, of one without a language too; it finds what is installed through the
+# PATH, on which the folder that the program was built in may stand before.
 file(WRITE ${WORK}/build/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
-project(packs LANGUAGES CXX)
+project(packs LANGUAGES NONE)
 find_package(tilepack 0.1 REQUIRED)
+if(NOT tilepack_DIR MATCHES \"^${WORK}/moved/\")
+  message(FATAL_ERROR \"found \${tilepack_DIR}\")
+endif()
 tilepack_add_pack(pebbles SAMPLE ${SOURCE}/samples/pebbles.png OUTPUT pebbles.pack OPTIONS --tile-size 32 --effort 0)
 ")
-run(${CMAKE_COMMAND} -G Ninja -S ${WORK}/build -B ${WORK}/build/made -D CMAKE_PREFIX_PATH=${WORK}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
-    -D CMAKE_CXX_FLAGS=${FLAGS})
+run(${CMAKE_COMMAND} -E env "PATH=${BUILD}:${WORK}/moved/bin:$ENV{PATH}" ${CMAKE_COMMAND} -G Ninja -S ${WORK}/build -B ${WORK}/build/made)
 run(${CMAKE_COMMAND} --build ${WORK}/build/made)
 run(${WORK}/moved/bin/tilepack validate ${WORK}/build/made/pebbles.pack)
 run(${CMAKE_COMMAND} --build ${WORK}/build/made)

@@ -4,6 +4,7 @@
 #include "tilepack/report/bake_page.h"
 #include "tilepack/report/bake_pictures.h"
 #include "tilepack/report/pack_picture.h"
+#include "tilepack/report/size_choice.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -219,8 +220,28 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
   SECTION("a sample of one value") {
     facts.report.figures = {};
     facts.report.figures.shown_often = 1;
-    CHECK(says(facts, Grade::good, "one plain value"));
+    CHECK(says(facts, Grade::fair, "nothing to tile"));
+    CHECK(bake_verdict(facts).remarks.size() == 1);
+    CHECK(size_choice(facts).smaller.empty());
+    CHECK(size_choice(facts).richer.empty());
+    facts.clear = true;
+    CHECK(says(facts, Grade::fair, "transparent"));
+  }
+  SECTION("levels that end early") {
+    facts.synth.tile_size = {132, 128};
+    facts.coarsest = {33, 32};
+    CHECK(says(facts, Grade::good,
+               "132 x 128 texels halves evenly 2 times, so that its coarsest level has 33 x 32: from farther "
+               "away it flickers "
+               "or turns flat. --full-mips"));
     CHECK(bake_verdict(facts).grade == Grade::good);
+    facts.coarsest = {8, 16};
+    CHECK_FALSE(says(facts, Grade::good, "--full-mips"));
+    facts.coarsest = {};
+    CHECK_FALSE(says(facts, Grade::good, "--full-mips"));
+    facts.coarsest = {121, 121};
+    facts.synth.tile_size = {121, 121};
+    CHECK(says(facts, Grade::good, "can't be halved"));
   }
   SECTION("a landmark") {
     facts.report.landmark = {{100, 200}, 6.0, 0.5};
@@ -245,10 +266,11 @@ TEST_CASE("what is wrong with a set is said with the option to turn", "[bake_ver
     const auto codes = remark_codes();
     CHECK(std::find(codes.begin(), codes.end(), remark.code) != codes.end());
     if (!remark.cure) continue;
-    CHECK(remark.grade != Grade::good);
+    CHECK((remark.grade != Grade::good || remark.code == "levels-end"));
     const std::vector<std::string> fields = bake_field_names();
     CHECK(std::find(fields.begin(), fields.end(), remark.cure->field) != fields.end());
-    CHECK(remark.text.find(field(remark.cure->field, remark.cure->value)) != std::string::npos);
+    const std::string value = remark.cure->value == "true" ? "" : remark.cure->value; // flags are named alone
+    CHECK(remark.text.find(field(remark.cure->field, value)) != std::string::npos);
   }
   for (std::size_t i = 1; i < verdict.remarks.size(); ++i) // the worst first
     CHECK(verdict.remarks[i - 1].grade >= verdict.remarks[i].grade);

@@ -163,8 +163,10 @@ void note_wrap(const BakeOptions& options, const BakedJob& baked, const JobWatch
                                             : " in the north and south",
                            field("wraps", "no")));
   };
-  note(baked.made.wrap, "the sample");
-  for (const BakedMaterial& material : baked.made.materials) note(material.wrap, material.name);
+  const auto shows_something = [](const SetReport& report) { return report.figures.sample_step > 0; };
+  if (shows_something(baked.made.report)) note(baked.made.wrap, "the sample");
+  for (const BakedMaterial& material : baked.made.materials)
+    if (shows_something(material.report)) note(material.wrap, material.name);
 }
 
 using Tell = std::function<void(const std::vector<std::string>& notes)>;

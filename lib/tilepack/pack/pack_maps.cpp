@@ -28,6 +28,11 @@ const PackedMap& map_at(std::span<const PackedMap> maps, int map) {
   return maps[static_cast<std::size_t>(map)];
 }
 
+bool is_far(const PackedMap& map, int level) {
+  const auto first = static_cast<int>(map.levels.size());
+  return level >= first && level < first + static_cast<int>(map.far_levels.size());
+}
+
 const Image& level_at(const PackedMap& map, int level) {
   if (level < 0 || level >= static_cast<int>(map.levels.size()))
     throw Error(

@@ -17,7 +17,10 @@ inline const PackedMap& map_at(const Pack& pack, int map) {
   return map_at(pack.maps, map);
 }
 
-/// The level of that number, 0 the finest. Error (usage, field "level") if it is not stored.
+/// Whether the level of that number is one of the map's far levels (mip/far_levels.h).
+bool is_far(const PackedMap& map, int level);
+
+/// The level of tiles of that number, 0 the finest. Error (usage, field "level") if it is not stored.
 const Image& level_at(const PackedMap& map, int level);
 
 } // namespace tilepack

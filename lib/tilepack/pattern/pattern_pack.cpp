@@ -39,6 +39,7 @@ Pack from_level(const Pack& pack, const PackRequest& request) {
   part.jump_weight = pack.jump_weight;
   part.guard = pack.guard >> first;
   part.tile_levels = pack.tile_levels - first;
+  part.full_chain = pack.full_chain;
   part.maps.push_back(coarse_part(map, first));
   if (pack.corner_pack) {
     part.corner_pack = CornerPack{

@@ -30,6 +30,8 @@ void lay_as_array(Pack& pack) {
     }
     map.levels[level] = std::move(column);
   }
+  map.far_levels.clear(); // of the texture as it was
+  pack.full_chain = false;
   pack.layout = {};
   pack.layout.kind = LayoutKind::array;
   pack.layout.columns = 1;

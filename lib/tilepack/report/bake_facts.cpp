@@ -3,7 +3,9 @@
 #include "tilepack/exemplar/feature_image.h"
 #include "tilepack/exemplar/fireflies.h"
 #include "tilepack/exemplar/flatten.h"
+#include "tilepack/mip/level_size.h"
 #include "tilepack/report/verdict_thresholds.h"
+#include "tilepack/tileset/value_space.h"
 
 namespace tilepack {
 namespace {
@@ -26,10 +28,22 @@ BakeFacts material_facts(const BakedPack& made, const BakedMaterial& material) {
   return facts;
 }
 
+bool is_clear(const SampleMap& map) {
+  if (!value_space(map).has_alpha()) return false;
+  for (int y = 0; y < map.image.height(); ++y)
+    for (int x = 0; x < map.image.width(); ++x)
+      if (map.image.texel(x, y).back() > 0) return false;
+  return true;
+}
+
 } // namespace
 
 bool has_shading(const SampleTraits& nature) {
   return nature.shading > verdict_thresholds::shading_fair || nature.drift > verdict_thresholds::drift_fair;
+}
+
+bool shows_nothing(const BakeFacts& facts) {
+  return facts.report.figures.sample_step == 0;
 }
 
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) {
@@ -47,6 +61,8 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
                   made.straightened,
                   made.flatten_chosen && made.flatten > 0,
                   made.levelled};
+  if (const Pack& pack = made.pack; pack.mip_mode != MipMode::none && !pack.full_chain)
+    facts.coarsest = level_size(pack.tile_size, pack.tile_levels - 1);
   if (!made.materials.empty()) {
     for (const BakedMaterial& material : made.materials)
       facts.materials.push_back(material_facts(made, material));
@@ -55,6 +71,7 @@ BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples) 
     facts.size_chosen = false; // what is said of a choice is about one sample
     return facts;
   }
+  facts.clear = is_clear(samples[0]);
   for (const SampleMap& map : samples)
     if (facts.fireflies.empty()) facts.fireflies = listed(fireflies(map));
   if (made.flatten < 100 && has_shading(facts.nature)) {

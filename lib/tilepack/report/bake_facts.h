@@ -26,6 +26,9 @@ struct BakeFacts {
   bool tones_chosen = false;  ///< flatten, more than 0, was found to suit the sample
   bool levelled = false;      ///< flattening went course by course, each by itself
 
+  bool clear = false; ///< the sample has alpha, which is 0 everywhere
+  Size coarsest = {}; ///< of a tile: its last level, where levels end with those of tiles; else empty
+
   std::string material =
       {}; ///< these are the facts of a material of a transition, as a set by itself; else empty
   std::vector<BakeFacts> materials = {}; ///< of a transition: its materials'
@@ -34,6 +37,9 @@ struct BakeFacts {
 
 /// Whether its slow tones vary so much that they are remarked upon (verdict_thresholds.h).
 bool has_shading(const SampleTraits& nature);
+
+/// Whether all texels of the sample look alike, or none is seen.
+bool shows_nothing(const BakeFacts& facts);
 
 /// `samples`: those that baked() got; of a transition, any.
 BakeFacts bake_facts(const BakedPack& made, std::span<const SampleMap> samples);

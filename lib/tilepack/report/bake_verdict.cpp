@@ -332,6 +332,35 @@ void judge_tones(const BakeFacts& facts, Remarks& remarks) {
         Cure{"seed", ""});
 }
 
+// Levels of tiles end where a side is odd.
+void judge_levels(const BakeFacts& facts, Remarks& remarks) {
+  const Size last = facts.coarsest, tile = facts.synth.tile_size;
+  if (std::min(last.width, last.height) <= limit::last_level_side) return;
+  const int halvings = mip_levels(tile) - 1;
+  add(remarks, Grade::good, "levels-end",
+      fmt::format("A tile of {} x {} texels {}, so that its coarsest level has {} x {}: from farther away it "
+                  "flickers or turns flat. {} goes on to the mean.",
+                  tile.width, tile.height,
+                  halvings == 0 ? "can't be halved"
+                                : fmt::format("halves evenly {} time{}", halvings, halvings == 1 ? "" : "s"),
+                  last.width, last.height, field("full-mips")),
+      Cure{"full-mips", "true"});
+}
+
+// A sample that shows nothing: no figure of a set means anything then, and no option helps.
+BakeRemark nothing_to_tile(const BakeFacts& facts) {
+  if (facts.clear)
+    return {Grade::fair,
+            "clear",
+            "The sample is transparent all over: nothing of it is seen, and there is nothing to tile.",
+            {}};
+  return {Grade::fair,
+          "plain",
+          "All texels of the sample look alike: there is nothing to tile, and a texture of one texel shows "
+          "the same.",
+          {}};
+}
+
 } // namespace
 
 std::string tile_size_value(Size size) {
@@ -365,7 +394,7 @@ std::span<const std::string_view> remark_codes() {
       "plain",         "sample-small",   "shading",        "writing",      "periods-held", "periods-broken",
       "no-cuts",       "cuts-hidden",    "cuts-seen",      "varied",       "few-parts",    "shown-often",
       "border-round",  "border-through", "borders-hidden", "borders-seen", "one-tile",     "landmark",
-      "values-differ", "fireflies",      "tones-end"};
+      "values-differ", "fireflies",      "tones-end",      "levels-end",   "clear"};
   return codes;
 }
 
@@ -434,12 +463,15 @@ BakeVerdict worst_first(BakeVerdict verdict) {
 } // namespace
 
 BakeVerdict bake_verdict(const BakeFacts& facts) {
-  if (!facts.materials.empty()) return worst_first(transition_verdict(facts));
+  if (!facts.materials.empty()) {
+    BakeVerdict verdict = transition_verdict(facts);
+    judge_levels(facts, verdict.remarks);
+    return worst_first(std::move(verdict));
+  }
   BakeVerdict verdict;
-  if (facts.report.figures.sample_step == 0) {
-    add(verdict.remarks, Grade::good, "plain",
-        "The sample is one plain value: nothing in it can be seen to repeat.");
-    return verdict;
+  if (shows_nothing(facts)) {
+    verdict.remarks.push_back(nothing_to_tile(facts));
+    return worst_first(std::move(verdict));
   }
   const bool pattern = is_pattern_in_step(facts);
   if (!pattern) judge_sample(facts, verdict.remarks);
@@ -454,6 +486,7 @@ BakeVerdict bake_verdict(const BakeFacts& facts) {
         fmt::format(
             "The sample has {}. They hardly count where tiles are cut, but tiles show them: paint them over.",
             facts.fireflies));
+  judge_levels(facts, verdict.remarks);
   return worst_first(std::move(verdict));
 }
 

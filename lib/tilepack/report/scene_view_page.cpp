@@ -172,7 +172,8 @@ private:
         sampler.kind == GraphSampler::Kind::corners ? pack.corner_pack->maps[0] : pack.maps[0];
     std::string levels;
     PageTexels texels{is_light(map), has_alpha(map.role, map.channels), {}};
-    for (const Image& stored : map.levels) {
+    for (std::size_t l = 0; l < map.levels.size() + map.far_levels.size(); ++l) {
+      const Image& stored = l < map.levels.size() ? map.levels[l] : map.far_levels[l - map.levels.size()];
       const Image level = to_linear(stored, map.encoding);
       texels.bytes.clear();
       for (int y = 0; y < level.height(); ++y)

@@ -38,6 +38,7 @@ SizeChoice size_choice(const BakeFacts& facts) {
   const SynthOptions& o = facts.synth;
   SizeChoice choice;
   choice.times_sample = facts.tiles * texels_of(o.tile_size) / texels_of(facts.sample);
+  if (shows_nothing(facts)) return choice; // any size shows the same
   const auto side = static_cast<int>(
       std::bit_floor(static_cast<unsigned>(std::min(o.tile_size.width, o.tile_size.height) - 1)));
   if (side >= 16) {

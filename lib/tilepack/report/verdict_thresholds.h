@@ -43,7 +43,8 @@ constexpr double tiles_held_poor = 2.5; ///< below: poor (judgement)
 // ---- Tones that differ from tile to tile. Shading is 0.019 to 0.063 in the photos whose tiles can be told by
 // their tone (wood, sand, clouds, boards, a rubble wall, rust), and 0.017 at most in the others (grass and
 // leaves 0.017, gravel 0.004, brick 0).
-constexpr double shading_fair = 0.018; ///< share of the sample's variance that is slow; above: said, and fair if tones end
+constexpr double shading_fair =
+    0.018; ///< share of the sample's variance that is slow; above: said, and fair if tones end
 constexpr double drift_fair = 0.25; ///< share of it between areas of a tile's size; above: fair (judgement)
 constexpr double drift_poor = 0.5;  ///< above: poor (judgement)
 /// Flattening is advised where it leaves less than this part of the drift. (judgement)
@@ -67,6 +68,10 @@ constexpr double landmark_deviation_fair = 3.5; ///< standard deviations from th
 constexpr double landmark_shown_fair = 0.2;     ///< share of tiles that show it; from here: fair
 constexpr double landmark_deviation_poor = 4.5; ///< from here, and:
 constexpr double landmark_shown_poor = 0.4;     ///< from here: poor
+
+// ---- Levels of tiles: texels of the shorter side of the last one. Farther away a pixel covers more than a texel of it: one of
+// this side has a tile or so in a pixel by the time that views have faded to the mean, two levels on. (judgement)
+constexpr int last_level_side = 8; ///< above: said
 
 // ---- Tones that end in straight lines (ToneBreaks), share of the length of borders, at the default settings, looked at in views
 // of 1024 texels: 0.32 (painted boards as they are), 0.28 (wood as it is) and 0.18 (drawn boards as they are) where

@@ -60,7 +60,9 @@ PackTexture::PackTexture(const Pack& pack, int map, ViewFilter of_filter, WrapMo
 void PackTexture::sample(TileCoordinate u, TileCoordinate v, const Footprint& footprint,
                          std::span<double> out) const {
   const Probes probes = probes_for(footprint, tile, filter);
-  const double fade = std::clamp((probes.level - (sampler.levels() - 1)) / fade_levels, 0.0, 1.0);
+  const bool reads_far = sampler.chain_levels() > sampler.levels() && filter != ViewFilter::ewa;
+  const double fade =
+      reads_far ? 0.0 : std::clamp((probes.level - (sampler.levels() - 1)) / fade_levels, 0.0, 1.0);
   ValueSums sums;
   if (fade < 1) {
     std::array<double, 4> buffer{};
@@ -72,7 +74,7 @@ void PackTexture::sample(TileCoordinate u, TileCoordinate v, const Footprint& fo
       if (filter == ViewFilter::ewa)
         sampler.sample(x, y, footprint, probe);
       else
-        sampler.sample(x, y, std::min(probes.level, sampler.levels() - 1.0), Filter::trilinear, probe);
+        sampler.sample(x, y, probes.level, Filter::trilinear, probe);
       sums.add(std::span<const double>(probe), (1 - fade) / probes.count, space.has_alpha());
     }
   }

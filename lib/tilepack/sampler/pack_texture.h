@@ -39,8 +39,8 @@ Probes probes_for(const Footprint& footprint, Size tile, ViewFilter filter);
 ///
 /// Past the coarsest level a pixel covers many tiles, and looking at one of them would flicker from pixel to
 /// pixel. So from that level on the value fades to the mean of the map over two levels, and the mean is all
-/// there is at the horizon. (A mean over the tiles of the pack: mappings use each about equally often.) Far levels
-/// are not read.
+/// there is at the horizon. (A mean over the tiles of the pack: mappings use each about equally often.) Of a pack with
+/// a full chain trilinear and anisotropic views read the far levels in place of that, as hardware does, whose last is the mean.
 class PackTexture final : public Texture {
 public:
   /// `pack` must outlive this. Throws Error (usage) for a map that isn't there.

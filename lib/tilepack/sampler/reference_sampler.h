@@ -68,7 +68,8 @@ public:
                    WrapMode border = WrapMode::wrap);
 
   int channels() const { return texels.channels(); }
-  int levels() const { return texels.levels(); } ///< of tiles
+  int levels() const { return texels.levels(); }             ///< of tiles
+  int chain_levels() const { return texels.chain_levels(); } ///< with far levels
 
   /// The linear value at (x, y). `level` 0 is the finest. `out` has channels() entries. Past the levels of tiles
   /// bilinear and trilinear lookups read the far levels of packs that have a full chain.

@@ -3,6 +3,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/layout/place_tiles.h"
 #include "tilepack/numeric/exact_math.h"
+#include "tilepack/numeric/wrap.h"
 #include "tilepack/pack/pack_maps.h"
 #include "tilepack/sampler/reference_sampler.h"
 
@@ -29,8 +30,16 @@ int output_side(int texels, double scale, const char* way) {
 
 const PackedMap& map_of(const Pack& pack, int map, int level) {
   const PackedMap& result = map_at(pack, map);
-  level_at(result, level);
+  if (!is_far(result, level)) level_at(result, level);
   return result;
+}
+
+// The place of a pixel, `offset` texels of the view's level from texel `first` of it. Texels of far levels are 2^n of the last
+// level of tiles, which is the last that has whole ones a tile.
+TileCoordinate place_of_pixel(std::int64_t first, double offset, int tile_side, int far_steps) {
+  const std::int64_t texel = wrapped(first, static_cast<std::int64_t>(tile_side));
+  return normalised({((first - texel) / tile_side) << far_steps,
+                     std::ldexp(static_cast<double>(texel) + offset, far_steps) / tile_side});
 }
 
 // A pixel steps 1 / scale texels of the level, which are 2^level of the finest.
@@ -40,10 +49,13 @@ FootprintEllipse covered_by_pixel(const View& view, Size tile) {
 }
 
 // Texels of `level` are 1 / scale pixels wide; a level up doubles them.
-LevelBlend levels_for(const View& view, int stored_levels, const FootprintEllipse& pixel) {
-  if (view.elliptical) return level_blend(level_of(pixel), stored_levels, Filter::trilinear);
-  if (view.filter != Filter::trilinear) return {view.level, view.level, 0.0};
-  return level_blend(view.level - exact_log2(view.scale), stored_levels, view.filter);
+LevelBlend levels_for(const View& view, const PackedMap& map, const FootprintEllipse& pixel) {
+  const auto of_tiles = static_cast<int>(map.levels.size());
+  const int of_chain = of_tiles + static_cast<int>(map.far_levels.size());
+  if (view.elliptical) return level_blend(level_of(pixel), of_tiles, Filter::trilinear);
+  if (view.filter != Filter::trilinear)
+    return level_blend(view.level, view.filter == Filter::nearest ? of_tiles : of_chain, view.filter);
+  return level_blend(view.level - exact_log2(view.scale), of_chain, view.filter);
 }
 
 } // namespace
@@ -63,7 +75,7 @@ Size output_size(const View& view) {
 Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, const RenderTarget& of_target)
     : pack(&of_pack), map(&map_of(of_pack, map_index, of_view.level)), view(of_view), target(of_target),
       picture(output_size(of_view)), pixel(covered_by_pixel(of_view, of_pack.tile_size)),
-      levels(levels_for(of_view, static_cast<int>(map->levels.size()), pixel)),
+      levels(levels_for(of_view, *map, pixel)),
       texels(of_pack, map_index, levels.fine, levels.coarse), edge{of_pack.mapping.size, of_view.border} {
   if (copies_texels()) {
     Image level = map->levels[static_cast<std::size_t>(view.level)];
@@ -75,11 +87,24 @@ Renderer::Renderer(const Pack& of_pack, int map_index, const View& of_view, cons
   }
   if (pack->corner_pack && view.corner_width > 0)
     corners.emplace(*pack, map_index, view.corner_width, levels.fine, levels.coarse);
-  const Size tile = texels.tile_size(view.level);
   columns.resize(static_cast<std::size_t>(picture.width));
   for (int i = 0; i < picture.width; ++i)
-    columns[static_cast<std::size_t>(i)] = within(
-        from_texels(view.rect.x, (i + 0.5) / view.scale, tile.width), pack->mapping.size.width, view.border);
+    columns[static_cast<std::size_t>(i)] =
+        within(place_of_pixel(view.rect.x, (i + 0.5) / view.scale, texels.tile_size(last_of_tiles()).width,
+                              far_steps()),
+               pack->mapping.size.width, view.border);
+}
+
+bool Renderer::copies_texels() const {
+  return view.scale == 1.0 && !view.elliptical && !is_far(*map, view.level);
+}
+
+int Renderer::last_of_tiles() const {
+  return std::min(view.level, texels.levels() - 1);
+}
+
+int Renderer::far_steps() const {
+  return view.level - last_of_tiles();
 }
 
 Image Renderer::rows(int first, int count) const {
@@ -92,9 +117,9 @@ Image Renderer::rows(int first, int count) const {
 }
 
 void Renderer::render_row(int row, std::span<float> out) const {
-  const Size tile = texels.tile_size(view.level);
-  const TileCoordinate y =
-      within(from_texels(view.rect.y, (row + 0.5) / view.scale, tile.height), edge.size.height, view.border);
+  const TileCoordinate y = within(place_of_pixel(view.rect.y, (row + 0.5) / view.scale,
+                                                 texels.tile_size(last_of_tiles()).height, far_steps()),
+                                  edge.size.height, view.border);
   const auto channel_count = static_cast<std::size_t>(channels());
   const bool renormal =
       value_space(*map).has_vectors() && (view.elliptical || view.filter != Filter::nearest);

@@ -15,8 +15,9 @@ namespace tilepack {
 
 /// What to render: a window of the virtual texture at one level, magnified or shrunk.
 struct View {
-  VirtualRect rect; ///< in texels of `level`
-  int level = 0;    ///< 0..tile_levels-1
+  VirtualRect
+      rect; ///< in texels of `level`, 2^level of level 0 wide, also at far levels, where tiles have no whole ones
+  int level = 0;    ///< 0..tile_levels-1, and of a full chain (mip/far_levels.h) on to its last
   double scale = 1; ///< output pixels a texel, > 0: pixel i samples rect.x + (i + 0.5) / scale
   Filter filter = Filter::trilinear;          ///< trilinear reads the level whose texels are a pixel apart
   double corner_width = default_corner_width; ///< see corner_weight; 0 leaves a corner pack aside
@@ -32,7 +33,8 @@ constexpr int max_render_side = 65536;
 /// Renders a view in bands of rows, any rows in any order: the pixels are the same for any banding and any
 /// number of threads, and those of ReferenceSampler.
 ///
-/// At scale 1 pixels lie on texels: every filter but the elliptical one gives the texels of the level
+/// Trilinear and bilinear views read far levels, where there are any; nearest and elliptical ones stay at the last level of
+/// tiles. At scale 1 and a level of tiles pixels lie on texels: every filter but the elliptical one gives the texels of the level
 /// themselves, and if encoding and depth are those of the map, bit for bit (of a rotated layout, whose texels
 /// lie elsewhere, what tiles_at_level reads back). Elsewhere filtered normals are renormalised.
 class Renderer {
@@ -49,7 +51,9 @@ public:
 
 private:
   void render_row(int row, std::span<float> out) const;
-  bool copies_texels() const { return view.scale == 1.0 && !view.elliptical; }
+  bool copies_texels() const;
+  int last_of_tiles() const; // the view's level, or the last of tiles before it
+  int far_steps() const;     // how far the view's level lies past that
 
   const Pack* pack;
   const PackedMap* map;

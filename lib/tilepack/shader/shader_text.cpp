@@ -162,6 +162,16 @@ std::vector<std::string> usage(const Pack& pack, const ShaderSettings& settings,
   return lines;
 }
 
+// GLSL ES has no precision for floats in fragment programs, nor for most samplers, until it is told one; of places and
+// hashes no bit may be lost.
+std::string embedded_precisions(const Pack& pack) {
+  std::string text = "#ifdef GL_ES\nprecision highp float;\nprecision highp int;\n";
+  text += pack.layout.kind == LayoutKind::array ? "precision highp sampler2DArray;\n"
+                                                : "precision highp sampler2D;\n";
+  if (pack.mapping.kind == MappingKind::index) text += "precision highp usampler2D;\n";
+  return text + "#endif\n";
+}
+
 std::string comment_of(ShaderLanguage language, const std::string& line) {
   return language == ShaderLanguage::c ? "/* " + line + " */\n" : "// " + line + "\n";
 }
@@ -188,6 +198,7 @@ std::string shader_text(const Pack& pack, const ShaderSettings& settings, const 
   text += comment_of(settings.language, fmt::format("Content of the pack: {:016x}", content));
   for (const std::string& line : usage(pack, settings, tables.words().chain_levels))
     text += comment_of(settings.language, line);
+  if (settings.language == ShaderLanguage::glsl) text += embedded_precisions(pack);
   return text + "\n" + lookup;
 }
 

@@ -15,7 +15,7 @@ struct ShaderSettings {
   ShaderLanguage language = ShaderLanguage::glsl;
   std::string name = "tilepack"; ///< what all names in the text begin with: a letter, then letters and digits
   WrapMode border = WrapMode::wrap; ///< what lies beyond the virtual texture
-  bool has_head = true;             ///< comments: what made it, of which pack, how it is used
+  bool has_head = true;             ///< comments: what made it, of which pack, how it is used; and of GLSL, precisions for ES
 };
 
 /// The lookup of a pack, to be included in a shader: constants and functions of lookup_description.h and nothing that
