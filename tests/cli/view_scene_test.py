@@ -206,9 +206,9 @@ class ViewSceneTest(CommandCase):
         self.refused("view", "none.json", "-o", "a.html", code=3, saying="nothing")
         self.write_json("p.json", {**scene, "nodes": {"look": {"block": "color", "value": [1, 0, 0]}}})
         self.refused("view", "p.json", "-o", "p.txt", code=1, saying=".html")
-        self.refused("view", "leaf.png", "-o", "p.html", "--time", "1", code=3, saying="leaf.png")
         self.refused("view", "leef.pack", "-o", "p.html", "--time", "1", code=2, saying="leef.pack")
         self.picture("sample.png", (120, 130, 70), 3, side=96)
+        self.refused("view", "sample.png", "-o", "p.html", "--time", "1", code=2, saying="sample.png: is no pack")
         self.run_tilepack("bake", "sample.png", "-o", "a.pack", "--tile-size", "16", "--effort", "0", "-q")
         self.refused("view", "a.pack", "-o", "p.html", "--time", "1", code=1, saying=["--time", "a.pack is a pack", "leave it out"])
 

@@ -49,7 +49,9 @@ TEST_CASE("a map is stored as near to what it is as the request lets it", "[pack
 TEST_CASE("the name of a file asks for its container", "[pack]") {
   CHECK(container_by_name("a/b.png") == ImageContainer::png);
   CHECK(container_by_name("b.c.exr") == ImageContainer::exr);
-  for (const char* other : {"b.PNG", "b.jpg", "png", ".png", "b", ""}) CHECK_FALSE(container_by_name(other));
+  CHECK(container_by_name("b.PNG") == ImageContainer::png);
+  CHECK(container_by_name("b.Exr") == ImageContainer::exr);
+  for (const char* other : {"b.PN", "b.jpg", "png", ".png", "b", ""}) CHECK_FALSE(container_by_name(other));
 }
 
 TEST_CASE("files of a map: a PNG or EXR a level", "[pack]") {

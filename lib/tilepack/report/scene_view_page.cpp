@@ -102,10 +102,10 @@ private:
   std::string maps_json() const {
     std::string text;
     for (const PatternMapFacts& map : made.graph.maps)
-      text +=
-          fmt::format("{}{{\"name\": {}, \"role\": {}, \"channels\": 3, \"mean\": [0, 0, 0], \"alpha\": {}}}",
-                      text.empty() ? "" : ", ", json_text(map.name),
-                      json_text(std::string(name_of(map.role))), map.has_alpha());
+      text += fmt::format(
+          "{}{{\"name\": {}, \"role\": {}, \"channels\": {}, \"mean\": [0, 0, 0], \"alpha\": {}}}",
+          text.empty() ? "" : ", ", json_text(map.name), json_text(std::string(name_of(map.role))),
+          map.role == Role::normal ? map.channels : 3, map.has_alpha());
     return text;
   }
 
