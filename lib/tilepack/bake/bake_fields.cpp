@@ -388,6 +388,15 @@ Error blamed(const Error& error, std::span<const BakeSetting> settings) {
   return setting ? Error(setting->kind, setting->where, error.what_happened()) : error;
 }
 
+Error blamed(const Error& error, std::string_view place, std::span<const BakeSetting> settings) {
+  const std::string name = error.field();
+  if (name.empty()) return error;
+  if (setting_of(settings, name)) return blamed(error, settings);
+  if (place.empty()) return error;
+  const ErrorKind kind = error.kind() == ErrorKind::usage ? ErrorKind::invalid_content : error.kind();
+  return Error(kind, fmt::format("{} \"{}\"", place, name), error.what_happened());
+}
+
 BakeOptions bake_options(std::span<const BakeSetting> settings) {
   BakeOptions options;
   if (!setting_of(settings, "coloring"))

@@ -57,6 +57,10 @@ const BakeSetting* setting_of(std::span<const BakeSetting> settings, std::string
 /// field's name.
 Error blamed(const Error& error, std::span<const BakeSetting> settings);
 
+/// The same of a bake that is told of at `place`, "FILE:LINE" of a manifest: fields that no setting names are blamed on it.
+/// Empty: there is none, and they are as they were.
+Error blamed(const Error& error, std::string_view place, std::span<const BakeSetting> settings);
+
 /// Options with the given settings, of those for one field the last; the rest are defaults. Colors are those
 /// of corners unless told otherwise or something is asked for that only edge-colored tiles have (layout
 /// tile-index, a corner pack, a sequential set, quilted insides, HxV or more than 4 colors). Defaults follow

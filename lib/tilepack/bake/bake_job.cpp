@@ -39,15 +39,6 @@ BakeOptions options_from(const BakeJob& job, std::span<const BakeSetting> settin
                             setting_of(settings, "variants") != nullptr);
 }
 
-Error blamed_on_job(const Error& error, const BakeJob& job, std::span<const BakeSetting> settings) {
-  const std::string name = error.field();
-  if (name.empty()) return error;
-  if (setting_of(settings, name)) return blamed(error, settings);
-  if (job.place.empty()) return error;
-  const ErrorKind kind = error.kind() == ErrorKind::usage ? ErrorKind::invalid_content : error.kind();
-  return Error(kind, fmt::format("{} \"{}\"", job.place, name), error.what_happened());
-}
-
 // Whatever `work` throws is blamed on where the job was told so. `work` gets all settings.
 template <typename Work>
 auto blaming(const BakeJob& job, Work work) {
@@ -56,7 +47,7 @@ auto blaming(const BakeJob& job, Work work) {
     settings = settings_of(job);
     return work(std::as_const(settings));
   } catch (const Error& error) {
-    throw blamed_on_job(error, job, settings);
+    throw blamed(error, job.place, settings);
   }
 }
 
@@ -242,14 +233,6 @@ std::vector<BakeSetting> settings_of(const BakeJob& job) {
 
 BakeOptions options_of(const BakeJob& job) {
   return blaming(job, [&](const auto& settings) { return options_from(job, settings); });
-}
-
-void check_advice(const BakeJob& job) {
-  if (job.transition.empty() || !job.apply_advice) return;
-  const Error error(
-      ErrorKind::usage, field("apply-advice"),
-      fmt::format("does not go with {}; give what the verdict names by hand", field("transition")));
-  throw blamed_on_job(error, job, job.settings);
 }
 
 std::vector<std::string> material_names_of(const BakeJob& job) {

@@ -53,7 +53,12 @@ std::vector<BakeSetting> settings_of(const BakeJob& job);
 
 /// Throws Error (usage, or invalid_content where the job has a place) for "apply-advice" of a transition: what a verdict
 /// advises is for a bake of one material.
-void check_advice(const BakeJob& job);
+inline void check_advice(const BakeJob& job) {
+  if (job.transition.empty() || !job.apply_advice) return;
+  const Error error(ErrorKind::usage, field("apply-advice"),
+                    "does not go with " + field("transition") + "; give what the verdict names by hand");
+  throw blamed(error, job.place, job.settings);
+}
 
 /// What the materials of a transition are called: as their files and folders, in letters, digits, '-' and '_', each
 /// once.
