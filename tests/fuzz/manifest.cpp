@@ -3,9 +3,11 @@
 #include "tilepack/batch/manifest.h"
 
 #include "tilepack/error/error.h"
+#include "tilepack/json/json_line.h"
 
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <unistd.h>
 
@@ -31,7 +33,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     }
   } catch (const tilepack::Error& error) {
-    tilepack::place_in({"m.json", text, {}, {}}, error.what_happened());
+    const auto lines = std::make_shared<const tilepack::JsonLines>(text);
+    tilepack::place_in({"m.json", text, {}, {}, lines}, error.what_happened());
   }
   return 0;
 }

@@ -32,7 +32,7 @@ struct Manifest {
   std::string text;
   std::vector<BatchEntry> entries;
   std::vector<std::string> folders;       ///< that patterns looked through
-  std::shared_ptr<const JsonLines> lines; ///< of the text, once there is one
+  std::shared_ptr<const JsonLines> lines; ///< of the text
 };
 
 /// Reads and expands. Throws Error: cannot_read for a missing file or a pattern without a match, invalid_content
