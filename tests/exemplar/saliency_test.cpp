@@ -85,10 +85,10 @@ TEST_CASE("what the eye would find again is shown by few tiles") {
   CHECK(with < 0.6 * without);
 }
 
-TEST_CASE("what stands out in a large sample is as many texels larger") {
+TEST_CASE("what stands out in a sample for larger tiles is as many texels larger") {
   const Image small = with_red_spot(512, 96, 160, 16);
   const Saliency cells = saliency_of(features(small)),
-                 large = saliency_of(features(testing::enlarged(small, 2)));
+                 large = saliency_of(features(testing::enlarged(small, 2)), 1);
   CHECK(cells.side == 16);
   REQUIRE(large.side == 32);
   REQUIRE((large.wide == cells.wide && large.high == cells.high));

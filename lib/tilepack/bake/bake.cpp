@@ -5,6 +5,7 @@
 #include "tilepack/bake/tile_size_choice.h"
 #include "tilepack/exemplar/period.h"
 #include "tilepack/numeric/side_by_side.h"
+#include "tilepack/synth/framed_set_settings.h"
 #include "tilepack/tileset/sequential_set.h"
 
 #include <algorithm>
@@ -76,7 +77,7 @@ BakedPack baked(std::span<const SampleMap> samples, const BakeOptions& options, 
   samples = result.samples_used(samples);
   const Size size = prepared.size;
   const std::optional<Periodicity>& periods = prepared.periods;
-  result.sample = analysed(samples, periods);
+  result.sample = analysed(samples, periods, halvings_to_usual(synth.tile_size));
   result.sources = subset(synthesize(result.sample, synth, progress), wanted);
   report(progress, "figures", 0.0);
   const auto look = [&] { result.report = set_report(result.sample, result.sources, size); };

@@ -8,7 +8,6 @@
 #include "tilepack/layout/tile_index.h"
 #include "tilepack/mapping/even_pattern.h"
 #include "tilepack/mapping/index_fill.h"
-#include "tilepack/mapping/index_size.h"
 #include "tilepack/mip/far_levels.h"
 #include "tilepack/mip/mip_chain.h"
 #include "tilepack/pack/stored_format_for.h"
@@ -106,16 +105,7 @@ void check_virtual_size(const PackingOptions& o, const TileColors& tiles) {
   if (kind == MappingKind::permutation) permutation_mapping(o.virtual_size, color_counts(tiles), 0);
   if (kind == MappingKind::mix) mix_mapping(o.virtual_size, 0);
   if (kind == MappingKind::even) even_mapping(o.virtual_size, color_counts(tiles).corner, 0);
-  const VirtualSize& size = o.virtual_size;
-  if (kind == MappingKind::index &&
-      (size.width < 1 || size.height < 1 || size.width > limits::longest_index_side ||
-       size.height > limits::longest_index_side || size.width * size.height > limits::most_index_cells))
-    throw Error(
-        ErrorKind::usage, field("virtual-size"),
-        fmt::format("{0}x{1} tiles; an index map has sides of 1 to {2} and at most {3} cells, such as "
-                    "{4}x{4}",
-                    size.width, size.height, limits::longest_index_side, limits::most_index_cells,
-                    largest_index_square()));
+  if (kind == MappingKind::index) check_index_size(o.virtual_size);
 }
 
 // Tiles as the pack will store level 0, so that coarser levels are made from what is really there.

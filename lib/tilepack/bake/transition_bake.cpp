@@ -5,6 +5,7 @@
 #include "tilepack/error/error.h"
 #include "tilepack/exemplar/object_scale.h"
 #include "tilepack/numeric/side_by_side.h"
+#include "tilepack/synth/framed_set_settings.h"
 #include "tilepack/tileset/limits.h"
 #include "tilepack/transition/joined_samples.h"
 #include "tilepack/transition/transition_set.h"
@@ -133,7 +134,7 @@ BakedPack baked_transition(MaterialList materials, const BakeOptions& options, c
     material.flatten = prepared[m].tones.flatten;
     material.size = prepared[m].size;
     used.push_back(prepared[m].used(materials[m].maps));
-    material.sample = analysed(used.back(), prepared[m].periods);
+    material.sample = analysed(used.back(), prepared[m].periods, halvings_to_usual(tile));
     result.materials.push_back(std::move(material));
   }
   JoinedSamples joined = tilepack::joined(used);
@@ -148,7 +149,7 @@ BakedPack baked_transition(MaterialList materials, const BakeOptions& options, c
       BakedMaterial& material = result.materials[i];
       material.report = set_report(material.sample, set.layers[i], material.size);
     } else if (i == materials.size()) {
-      result.sample = analysed(feature_image(joined.maps), {});
+      result.sample = analysed(feature_image(joined.maps), {}, halvings_to_usual(tile));
       result.report = set_report(result.sample, set.sources);
     } else {
       result.pack = packed(assembled(set.sources, joined.maps), plan, options.synth.seed, progress);

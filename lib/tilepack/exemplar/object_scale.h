@@ -11,7 +11,7 @@ namespace tilepack {
 /// one object is about four times as wide.
 ///
 /// Samples of which both sides have 1024 texels or more are looked at at half their size too, and so on while 512 are left:
-/// where what is seen there varies as much as `coarse_share` of all and is no grain, its scale counts if it is larger. A
+/// where what is seen there has a fourth of the variance of all or more and is no grain, its scale counts if it is larger. A
 /// photo of 4096² has the scale of its stones, be they 400 texels wide, and not that of the grit on them.
 ///
 /// At most largest_object_scale().

@@ -10,7 +10,6 @@
 namespace tilepack {
 namespace {
 
-constexpr int usual_cell = 16; // texels, of samples of less than 1024
 constexpr int compared_channels = 3;
 constexpr std::size_t most_measures = 2 * compared_channels; // means, differences between them, contrast
 
@@ -39,9 +38,8 @@ Measures measured(const FeatureImage& image, int channels, int cell, int west, i
 
 } // namespace
 
-Saliency saliency_of(const FeatureImage& image) {
-  int cell = usual_cell;
-  for (int side = std::min(image.width, image.height); side >= 1024; side /= 2) cell *= 2;
+Saliency saliency_of(const FeatureImage& image, int halvings) {
+  const int cell = Saliency{}.side << halvings;
   Saliency result{image.width / cell, image.height / cell, {}, cell};
   const int channels = std::min(image.channels, compared_channels);
   std::vector<Measures> measures;

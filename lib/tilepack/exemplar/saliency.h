@@ -20,12 +20,13 @@ struct Saliency {
   int wide = 0;
   int high = 0;
   std::vector<double> values; ///< row by row
-  int side = 16; ///< texels; twice as many for each halving that leaves 512 texels along both sides
+  int side = 16;              ///< texels
 
   double at(int x, int y) const { return values[static_cast<std::size_t>(y) * wide + x]; }
 };
 constexpr double salient_deviation = 3.0;
-Saliency saliency_of(const FeatureImage& image);
+/// `halvings`: cells are twice as large for each, as things are that catch the eye in larger tiles.
+Saliency saliency_of(const FeatureImage& image, int halvings = 0);
 
 /// By how much more than `salient_deviation` the most unlike cell in `area` deviates, of those of which half
 /// or more lies in it; 0 if none does. In texels of the sample.

@@ -18,9 +18,11 @@ struct SampleAnalysis {
   Periodicity periods;
 };
 
-SampleAnalysis analysed(FeatureImage features, const Periodicity& periods);
+/// `halvings`: see saliency_of().
+SampleAnalysis analysed(FeatureImage features, const Periodicity& periods, int halvings = 0);
 
 /// `samples`: one or more maps of one size. `periods`: theirs, where they are known already.
-SampleAnalysis analysed(std::span<const SampleMap> samples, const std::optional<Periodicity>& periods = {});
+SampleAnalysis analysed(std::span<const SampleMap> samples, const std::optional<Periodicity>& periods = {},
+                        int halvings = 0);
 
 } // namespace tilepack

@@ -305,7 +305,8 @@ FeatureImage with_structure(const FeatureImage& image, const StructureOptions& o
   if (image.channels >= max_feature_channels || options.weight <= 0.0) return image;
   FeatureImage half; // or a smaller part
   const FeatureImage* seen = &image;
-  for (int n = 0; n < halvings && std::min(seen->width, seen->height) >= 2; ++n) {
+  int times = 0; // as often as it can be halved
+  for (; times < halvings && std::min(seen->width, seen->height) >= 2; ++times) {
     half = halved(*seen);
     seen = &half;
   }
@@ -318,7 +319,7 @@ FeatureImage with_structure(const FeatureImage& image, const StructureOptions& o
   result.sensitivity.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
   result.flat_seam = static_cast<int>(options.flat_seam_share * static_cast<double>(variance_of(image)));
   const int full = static_cast<int>(std::lround(255.0 * std::min(options.weight, 1.0)));
-  const Enlarged across(w, size.width, halvings), down(h, size.height, halvings);
+  const Enlarged across(w, size.width, times), down(h, size.height, times);
   const auto wide = static_cast<std::size_t>(w);
   result.values.resize(wide * static_cast<std::size_t>(h) * static_cast<std::size_t>(result.channels));
   tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(h), [&](std::size_t y) {

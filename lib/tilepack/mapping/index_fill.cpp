@@ -177,7 +177,7 @@ private:
 
 } // namespace
 
-Mapping filled_index_mapping(VirtualSize size, const TileColors& tiles, std::uint64_t seed) {
+void check_index_size(const VirtualSize& size) {
   if (size.width < 1 || size.height < 1 || size.width > limits::longest_index_side ||
       size.height > limits::longest_index_side || size.width * size.height > limits::most_index_cells)
     throw Error(
@@ -186,6 +186,10 @@ Mapping filled_index_mapping(VirtualSize size, const TileColors& tiles, std::uin
                     "cells in all, such as {4}x{4}",
                     size.width, size.height, limits::longest_index_side, limits::most_index_cells,
                     largest_index_square()));
+}
+
+Mapping filled_index_mapping(VirtualSize size, const TileColors& tiles, std::uint64_t seed) {
+  check_index_size(size);
   std::optional<std::vector<int>> ids;
   if (tile_count(tiles) > 0) ids = Filler(size, tiles, seed).run();
   if (!ids)

@@ -4,6 +4,9 @@
 
 namespace tilepack {
 
+/// Throws Error (usage) for the field "virtual-size" of an index map whose sides or cells are too few or too many.
+void check_index_size(const VirtualSize& size);
+
 /// An index map for any set of tiles, complete or not: filled row by row, from west to east, each cell with a
 /// tile that fits its northern and western neighbours, chosen at random by `seed`.   [Cohen03]
 ///

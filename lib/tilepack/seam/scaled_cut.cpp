@@ -5,9 +5,6 @@
 namespace tilepack {
 namespace {
 
-// The last level up to which cuts are found at full size at once: a fourth.
-constexpr int levels_at_once = 2;
-
 // A patch and what it is laid over, one texel for scale × scale, seen from the patch's north-west texel.
 struct CoarsePatch {
   SourceCanvas canvas; // the area, and round it a texel where the canvas goes on
@@ -57,13 +54,14 @@ CoarsePatch coarse_patch(const FeatureImage& image, const SourceCanvas& canvas, 
   return coarse;
 }
 
+} // namespace
+
 void settle(const std::vector<CutConstraint>& settled, std::vector<CutConstraint>& constraints) {
   for (std::size_t i = 0; i < settled.size(); ++i)
-    if (constraints[i] == CutConstraint::free || constraints[i] == CutConstraint::unbiased)
-      if (settled[i] != CutConstraint::free) constraints[i] = settled[i];
+    if (settled[i] != CutConstraint::free &&
+        (constraints[i] == CutConstraint::free || constraints[i] == CutConstraint::unbiased))
+      constraints[i] = settled[i];
 }
-
-} // namespace
 
 std::vector<CutConstraint> settled_by(const std::vector<std::uint8_t>& taken, Size coarse, Size fine,
                                       int factor) {

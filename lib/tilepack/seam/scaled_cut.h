@@ -18,10 +18,17 @@ constexpr int widest_step = 8;
 std::vector<CutConstraint> settled_by(const std::vector<std::uint8_t>& taken, Size coarse, Size fine,
                                       int factor);
 
-/// lay_patch() for large canvases, at the scale of the first level: where the last level is a fourth of it or larger, the
-/// same; else the cut is found at the scale of the last level and comes down scale by scale, in bands round its line. A
-/// thousandth of the nodes are left then, of tiles of 1280 texels. What of a coarse texel must stay or be taken holds for all of
-/// it. The seam energy may rise a little, unlike that of lay_patch().
+/// Makes the free texels of `constraints` what is settled of them; none settled: all stay as they are.
+void settle(const std::vector<CutConstraint>& settled, std::vector<CutConstraint>& constraints);
+
+/// The last level of a pyramid up to which cuts and places are found at full size at once, a fourth of it: tiles of less than
+/// 256 texels have no further ones.
+constexpr int levels_at_once = 2;
+
+/// lay_patch() for large canvases, at the scale of the first level: where the last level is levels_at_once or one before,
+/// the same; else the cut is found at the scale of the last level and comes down scale by scale, in bands round its line.
+/// What of a coarse texel must stay or be taken holds for all of it. The seam energy may rise a little then, unlike that of
+/// lay_patch().
 bool lay_patch_by_scales(const FeaturePyramid& pyramid, SourceCanvas& canvas, const LaidPatch& patch);
 
 } // namespace tilepack

@@ -8,9 +8,6 @@
 namespace tilepack {
 namespace {
 
-// Texels of the sample to one of the last level, up to which windows are as large as the options say.
-constexpr int usual_scale = 4;
-
 struct WorstPatch {
   Rect area;
   std::int64_t cost = 0;
@@ -87,8 +84,10 @@ PositionMap mismatches_of(const SeamRepairInput& input, const SourceCanvas& canv
   return map;
 }
 
-// Lays the patch unless seams cost more then.
+// Lays the patch unless seams cost more then, as they may where cuts come down scale by scale.
 bool improved(const FeaturePyramid& pyramid, SourceCanvas& canvas, const LaidPatch& patch) {
+  if (static_cast<int>(pyramid.size()) - 1 <= levels_at_once)
+    return lay_patch_by_scales(pyramid, canvas, patch);
   const Rect& a = patch.area;
   const int x0 = std::max(0, a.x - 1), y0 = std::max(0, a.y - 1);
   const int x1 = std::min(canvas.width, a.x + a.width + 1), y1 = std::min(canvas.height, a.y + a.height + 1);
@@ -106,13 +105,12 @@ bool improved(const FeaturePyramid& pyramid, SourceCanvas& canvas, const LaidPat
   return false;
 }
 
-// Brings a place of the last level to the first: one level after the other, and through the last two at once.
+// Brings a place of the last level to the first: one level after the other, and through the last at once.
 SourceTexel at_full_size(const SeamRepairInput& input, const SourceCanvas& canvas, Rect area,
                          const Overlap& full, SourceTexel place) {
-  constexpr int at_once = 2;
   constexpr int distance = 2; // the rounding of the level before, and one
   int level = static_cast<int>(input.pyramid.size()) - 1;
-  for (; level > at_once; --level) {
+  for (; level > levels_at_once; --level) {
     const FeatureImage& next = input.pyramid[static_cast<std::size_t>(level - 1)];
     place = best_near(next, shown_in(input.pyramid.front(), canvas, area, 1 << (level - 1)),
                       {2 * place.x, 2 * place.y}, distance);
@@ -152,7 +150,7 @@ void replace_worst_patches(const SeamRepairInput& input, const SeamRepairOptions
   if (options.patches == 0) return;
   const FeatureImage& image = input.pyramid.front();
   const int scale = 1 << (input.pyramid.size() - 1);
-  const int window = options.window * std::max(1, scale / usual_scale);
+  const int window = options.window * std::max(1, scale >> levels_at_once);
   const int side = window / scale * scale;
   if (std::min({side, canvas.width, canvas.height}) < 2 * scale ||
       std::min(side, canvas.width) > image.width || std::min(side, canvas.height) > image.height)

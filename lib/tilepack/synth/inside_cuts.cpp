@@ -1,5 +1,7 @@
 #include "tilepack/synth/inside_cuts.h"
 
+#include "tilepack/seam/scaled_cut.h"
+
 #include <algorithm>
 
 namespace tilepack {
@@ -30,10 +32,7 @@ InsideCuts::InsideCuts(const SearchSpace& space, const SourceCanvas& framed, std
 }
 
 void InsideCuts::settle(const std::vector<CutConstraint>& settled) {
-  for (std::size_t i = 0; i < constraints.size(); ++i)
-    if (settled[i] != CutConstraint::free &&
-        (constraints[i] == CutConstraint::free || constraints[i] == CutConstraint::unbiased))
-      constraints[i] = settled[i];
+  tilepack::settle(settled, constraints);
 }
 
 SourceCanvas InsideCuts::laid(SourceTexel place) const {

@@ -206,8 +206,8 @@ std::vector<TilePlace> strongest(std::vector<TilePlace> places, std::size_t coun
 
 namespace {
 
-// One texel for scale × scale, of those in their middle.
-SourceMap shrunk(const SourceMap& sources, int scale) {
+// One texel for scale × scale, of those in their middle, for the sample at that scale, which may lack its last texels.
+SourceMap shrunk(const SourceMap& sources, int scale, Size sample) {
   const Size full = sources.tile_size;
   SourceMap small{{}, sources.colors, sources.tiles, {}, sources.guard};
   small.tile_size = {full.width / scale, full.height / scale};
@@ -218,7 +218,8 @@ SourceMap shrunk(const SourceMap& sources, int scale) {
         const SourceTexel s = sources.texels[t][static_cast<std::size_t>(y * scale + scale / 2) *
                                                     static_cast<std::size_t>(full.width) +
                                                 static_cast<std::size_t>(x * scale + scale / 2)];
-        small.texels[t].push_back({s.x / scale, s.y / scale});
+        small.texels[t].push_back(
+            {std::min(s.x / scale, sample.width - 1), std::min(s.y / scale, sample.height - 1)});
       }
   }
   return small;
@@ -262,10 +263,7 @@ ToneBreaks tone_breaks(const FeatureImage& image, const SourceMap& sources) {
   FeatureImage small = halved(image);
   for (int n = 1; n < halvings; ++n) small = halved(small);
   const int scale = 1 << halvings;
-  SourceMap seen = shrunk(sources, scale);
-  for (auto& texels : seen.texels) // the last ones of a sample that is no multiple
-    for (SourceTexel& s : texels) s = {std::min(s.x, small.width - 1), std::min(s.y, small.height - 1)};
-  ToneBreaks result = breaks_as_seen(small, seen);
+  ToneBreaks result = breaks_as_seen(small, shrunk(sources, scale, {small.width, small.height}));
   for (TilePlace& place : result.worst) {
     Rect& a = place.area;
     a = {a.x * scale, a.y * scale, a.width * scale, a.height * scale};

@@ -78,7 +78,7 @@ SourceMap synthesize(std::span<const SampleMap> samples, const SynthOptions& opt
   require_valid(options);
   require_one_size(samples);
   require_fitting(samples.front().name, samples.front().image.size(), options.tile_size);
-  return synthesize(analysed(samples), options, progress);
+  return synthesize(analysed(samples, {}, halvings_to_usual(options.tile_size)), options, progress);
 }
 
 SourceMap synthesize(const SampleAnalysis& sample, const SynthOptions& options, const Progress& progress) {
