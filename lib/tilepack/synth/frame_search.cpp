@@ -1,6 +1,5 @@
 #include "tilepack/synth/frame_search.h"
 
-#include "tilepack/exemplar/local_contrast.h"
 #include "tilepack/numeric/random.h"
 #include "tilepack/numeric/side_by_side.h"
 #include "tilepack/synth/border_match_costs.h"
@@ -16,7 +15,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 namespace tilepack {
@@ -52,8 +50,6 @@ struct FrameProblem {
   const FrameSearchOptions& options;
   BorderMatchCosts match_costs;
   StripRanking ranking;
-  LocalContrast contrast;       // of the image that is searched
-  bool prefers_plain;           // corner patches where it is low
   std::vector<TileSides> tiles; // by which the set is judged
   std::vector<double> uses;     // of each strip: tiles that show it, as the north or west of one
 
@@ -85,38 +81,13 @@ std::vector<TileSides> judged_tiles(const FrameShape& shape, std::size_t most) {
   return tiles;
 }
 
-// Of the part of a corner patch that is shown on average, and of what lies round it where that is small: of few grains of
-// gravel some are plain by chance.
-double contrast_of_corner(const FrameProblem& problem, SourceTexel at) {
-  constexpr int least = 6; // texels of the search, of tiles of 32 or somewhat more
-  const int across = std::max(least, problem.shape().corner_reach.x / 2);
-  const int down = std::max(least, problem.shape().corner_reach.y / 2);
-  return mean_in(problem.contrast, {at.x - across, at.y - down, 2 * across, 2 * down});
-}
-
-// Looked at in places that overlap by half. What repeats has them everywhere, between its lines, and its tiles hold the
-// same of it anyway.
-bool has_plain_parts(const FrameProblem& problem) {
-  if (!problem.shape().alignment.free()) return false;
-  const FeatureImage& image = problem.space.small_image();
-  const FrameShape::Reach reach = problem.shape().corner_reach;
-  int places = 0, plain = 0;
-  for (int y = reach.y; y + reach.y <= image.height; y += (reach.y + 1) / 2)
-    for (int x = reach.x; x + reach.x <= image.width; x += (reach.x + 1) / 2, ++places)
-      plain += contrast_of_corner(problem, {x, y}) < problem.options.plain_contrast;
-  return plain > 0 && plain >= problem.options.plain_share * places;
-}
-
 FrameProblem problem_of(const SearchSpace& space, const FrameSearchOptions& options) {
   FrameProblem problem{space,
                        options,
                        BorderMatchCosts(space.small_image(), space.small_shape, options.inside_positions),
                        StripRanking(space, options),
-                       local_contrast(space.small_image()),
-                       false,
                        judged_tiles(space.small_shape, options.judged_tiles),
                        {}};
-  problem.prefers_plain = has_plain_parts(problem);
   problem.uses.assign(problem.strips(), 0.0);
   for (const TileSides& tile : problem.tiles)
     for (const TileSide& side : tile) problem.uses[side.strip] += 0.5;
@@ -149,13 +120,11 @@ double excess_of_corner(const SearchSpace& space, SourceTexel at) {
 }
 
 // Of a few random places for each patch that which shows least of what the eye finds again, and of these the
-// farthest from those placed already: half of all lattice points show a patch, if there are two. Where there are
-// plain places, the plainest: the same stone at half of all lattice points shows the grid.
-CornerPatches placed_corners(const FrameProblem& problem, std::uint64_t start) {
+// farthest from those placed already: half of all lattice points show a patch, if there are two.
+CornerPatches placed_corners(const SearchSpace& space, const FrameSearchOptions& options,
+                             std::uint64_t start) {
   constexpr std::uint64_t most_corners = 16,
                           most_trials = 16; // numbers of random choices are packed by these
-  const SearchSpace& space = problem.space;
-  const FrameSearchOptions& options = problem.options;
   const FrameShape& shape = space.small_shape;
   const FeatureImage& image = space.small_image();
   const int scale = space.scale();
@@ -165,12 +134,9 @@ CornerPatches placed_corners(const FrameProblem& problem, std::uint64_t start) {
   CornerPatches corners{{}, shape.alignment};
   for (int corner = 0; corner < shape.corners; ++corner) {
     SourceTexel best{};
-    std::optional<SourceTexel> plain;
     double least_excess = std::numeric_limits<double>::max();
     int best_distance = -1;
-    double least_contrast = options.plain_contrast;
-    const int trials = problem.prefers_plain ? options.plain_trials : options.corner_trials;
-    for (int trial = 0; trial < trials; ++trial) {
+    for (int trial = 0; trial < options.corner_trials; ++trial) {
       const std::uint64_t index = (start * most_corners + static_cast<std::uint64_t>(corner)) * most_trials +
                                   static_cast<std::uint64_t>(trial);
       SourceTexel at{margin.x + static_cast<int>(random_below(options.seed, "corner x", index, range_x)),
@@ -181,20 +147,12 @@ CornerPatches placed_corners(const FrameProblem& problem, std::uint64_t start) {
       for (const SourceTexel& other : corners.places)
         distance = std::min(distance, std::abs(at.x - other.x) + std::abs(at.y - other.y));
       const double excess = options.saliency_weight > 0 ? excess_of_corner(space, at) : 0.0;
-      const double contrast = contrast_of_corner(problem, at);
-      if (problem.prefers_plain && excess == 0.0 && contrast < least_contrast &&
-          distance >= margin.x + margin.y) {
-        least_contrast = contrast;
-        plain = at;
-      }
-      if (trial < options.corner_trials &&
-          (excess < least_excess || (excess == least_excess && distance > best_distance))) {
+      if (excess < least_excess || (excess == least_excess && distance > best_distance)) {
         least_excess = excess;
         best_distance = distance;
         best = at;
       }
     }
-    if (plain) best = *plain;
     corners.places.push_back(best);
     if (corner == 0 && !shape.alignment.holds_first_part())
       corners.alignment = shape.alignment.through({best.x * scale, best.y * scale});
@@ -227,7 +185,7 @@ FrameStart frame_start(const FrameProblem& problem, std::uint64_t start) {
   const FrameShape& shape = problem.shape();
   const FeatureImage& image = problem.space.small_image();
   const int scale = problem.space.scale();
-  const CornerPatches corners = placed_corners(problem, start);
+  const CornerPatches corners = placed_corners(problem.space, problem.options, start);
   std::vector<StripChoices> strips(problem.strips());
   each_side_by_side(strips.size(), [&](std::size_t i) {
     const StripAxes axes = problem.axes(i);

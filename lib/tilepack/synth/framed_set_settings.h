@@ -69,12 +69,6 @@ struct FrameSearchOptions {
   int spares_per_candidate = 4;  ///< kept of them before evenness and saliency decide (w)
   int apart = 3;         ///< two candidates are so far apart, along x or y; nearer ones show much the same
   int corner_trials = 4; ///< random places tried for each corner patch
-  int plain_trials = 16; ///< and for a plain one, these among them; at most 16
-  /// A place is plain whose part that is shown has less than so many times the mean LocalContrast. (by eye; JOINS.md)
-  double plain_contrast = 0.45;
-  /// Plain places are preferred where they are so large a share of all, at least, as of stones in moss (7 of 100), cracked
-  /// mud (12) or water (29), and not of gravel (2), pebbles (2) or a wall of stones (4), which are alike everywhere.
-  double plain_share = 0.05;
   std::size_t judged_tiles = 128;        ///< larger sets are judged by so many of their tiles (w)
   std::size_t inside_positions = 10'000; ///< at which insides are held against strips, at most (w)
 };
